@@ -1,0 +1,11 @@
+/* Pinhole camera. The direction through film position (x, y) in [0,1]^2, y down from the top, is
+ * forward + (2x - 1) right + (1 - 2y) up, where right and up are already scaled to half the extent of the image. */
+#pragma once
+#include "shared/real.h"
+
+typedef struct Camera {
+    real4 position; /* w = 0 */
+    real4 forward;  /* unit */
+    real4 right;
+    real4 up;
+} Camera;

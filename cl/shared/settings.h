@@ -1,0 +1,35 @@
+/* What a user sets and a kernel reads: numbers, never structure, so that no edit of them compiles anything. */
+#pragma once
+#include "shared/camera.h"
+#include "shared/real.h"
+
+#define FILTER_BOX 0u
+#define FILTER_TENT 1u
+#define FILTER_GAUSSIAN 2u
+
+#define ROULETTE_OFF 0u
+#define ROULETTE_CONSTANT 1u
+#define ROULETTE_THROUGHPUT 2u
+
+typedef struct RenderSettings {
+    Camera camera;
+    uint width; /* of the whole film, pixels */
+    uint height;
+    uint seed_low;
+    uint seed_high;
+    uint max_depth;          /* surface vertices at which light is gathered; 0xffffffff = no limit */
+    uint filter;             /* FILTER_* */
+    uint roulette;           /* ROULETTE_* */
+    uint roulette_start;     /* number of vertices before roulette begins */
+    uint sample_lights;      /* 0 or 1: light sampling at each vertex */
+    uint count_emission;     /* 0 or 1: emission met by a BSDF-sampled ray counts (weighted when sample_lights) */
+    uint uniform_hemisphere; /* 0 or 1: directions uniform over the hemisphere instead of by the BSDF */
+    uint accelerator;        /* ACCELERATOR_* of features.h */
+    uint primitive_count;
+    uint light_count;
+    uint alias_shift;          /* 32 - log2(number of alias buckets) */
+    uint environment_light;    /* index of the environment in Light[], or NONE */
+    real4 filter_parameters;   /* radius in pixels; gaussian: sigma in pixels; 0; 0 */
+    real4 roulette_parameters; /* constant survival probability; 0; 0; 0 */
+    real4 scene_bounds;        /* centre and radius of the bounding sphere of the geometry */
+} RenderSettings;

@@ -1,0 +1,69 @@
+// A compiled program: its source expanded, its options, where the binary came from and what that cost.
+#pragma once
+
+#include "compute/device.h"
+#include "compute/kernel_source.h"
+
+#include <filesystem>
+#include <string>
+
+namespace etendue
+{
+// Always: strict floating point, so never a fast-math flag (the source itself forbids contraction, kernel_source.h).
+// The float build adds -cl-single-precision-constant, a device that can adds -cl-fp32-correctly-rounded-divide-sqrt.
+inline constexpr const char* base_build_options = "-cl-std=CL1.2";
+
+// Where compiled kernels are kept between runs, or nothing. Default: $ETENDUE_CACHE_DIR, else $XDG_CACHE_HOME/etendue,
+// else ~/.cache/etendue. A folder that cannot be written switches the cache off with a warning.
+class KernelCache
+{
+public:
+    static KernelCache at(const std::filesystem::path& folder);
+    static KernelCache standard();
+    static KernelCache none() { return {}; }
+
+    bool enabled() const { return !folder_.empty(); }
+    const std::filesystem::path& folder() const { return folder_; }
+    const std::string& warning() const { return warning_; } // why it is switched off, or ""
+
+private:
+    std::string warning_;
+    std::filesystem::path folder_;
+};
+
+struct BuildReport {
+    std::string program; // "path_megakernel.cl"
+    std::string options;
+    std::string log;
+    bool from_cache = false; // loaded from our own cache
+    bool stored = false;     // written to our own cache
+    double seconds = 0.0;    // clBuildProgram, cold or from a binary
+    std::size_t source_bytes = 0, binary_bytes = 0;
+};
+
+class Program
+{
+public:
+    // Build cl/<name> for the device. Throws BuildError with the log, options and device.
+    Program(const Device& device, const std::string& name, const std::string& options, const KernelCache& cache);
+    // Build a text; `name` is what messages call it. Never cached on disk.
+    static Program from_text(const Device& device, const std::string& name, const std::string& text,
+                             const std::string& options);
+
+    const Device& device() const { return *device_; }
+    const cl::Program& handle() const { return program_; }
+    const BuildReport& report() const { return report_; }
+
+    // Write the binary to the cache if it is not there yet. Asking some drivers for a binary is slow (PoCL compiles
+    // again), so this is called when there is time: after the picture is written. Never throws.
+    void store_in_cache();
+
+private:
+    Program() = default;
+
+    const Device* device_ = nullptr;
+    cl::Program program_;
+    BuildReport report_;
+    std::filesystem::path cache_file_;
+};
+} // namespace etendue
