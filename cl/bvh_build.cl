@@ -52,6 +52,17 @@ kernel void morton_codes(global const float4* boxes, uint count, global const fl
     indices[i] = i;
 }
 
+/* Primitive boxes in sorted order: a sweep of its own, so that the scattered reads overlap. */
+kernel void sort_boxes(global const float4* boxes, global const uint* sorted_primitives, uint count,
+                       global float4* sorted_boxes)
+{
+    const uint i = (uint)get_global_id(0);
+    if (i >= count) return;
+    const uint primitive = sorted_primitives[i];
+    sorted_boxes[2u * i] = boxes[2u * primitive];
+    sorted_boxes[2u * i + 1u] = boxes[2u * primitive + 1u];
+}
+
 /* Children, ranges and parents of the count - 1 inner nodes; parents[count - 1 + p] is that of sorted position p. */
 kernel void build_hierarchy(global const ulong* codes, uint count, global uint2* children, global uint2* ranges,
                             global uint* parents, global uint* arrivals)
@@ -73,14 +84,13 @@ kernel void build_hierarchy(global const ulong* codes, uint count, global uint2*
 
 /* Boxes, costs and leaves bottom-up: one work-item per primitive climbs; of the two that meet at a node the first stops
  * and the second, who finds both children complete, goes on. Nobody waits. */
-kernel void climb_boxes(uint count, global const uint* sorted_primitives, global const float4* primitive_box_list,
-                        global const uint2* children, global const uint2* ranges, global const uint* parents,
-                        global volatile uint* arrivals, global volatile float4* inner_boxes,
-                        global volatile uint* packed)
+kernel void climb_boxes(uint count, global const float4* sorted_boxes, global const uint2* children,
+                        global const uint2* ranges, global const uint* parents, global volatile uint* arrivals,
+                        global volatile float4* inner_boxes, global volatile uint* packed)
 {
     const uint position = (uint)get_global_id(0);
     if (position >= count) return;
-    const TreeView tree = {sorted_primitives, primitive_box_list, children, ranges, inner_boxes, packed};
+    const TreeView tree = {sorted_boxes, children, ranges, inner_boxes, packed};
     uint node = parents[count - 1u + position];
     while (node != NONE && atomic_xchg(&arrivals[node], 1u) != 0u) {
         /* The first arriver's stores came before its exchange; ours must come before the next one. */
@@ -103,14 +113,13 @@ kernel void node_levels(uint count, global const uint* parents, global uint* lev
 }
 
 /* What climb_boxes does, for the nodes of one level; launched from the deepest level up. */
-kernel void refit_level(uint count, uint level, global const uint* sorted_primitives,
-                        global const float4* primitive_box_list, global const uint2* children,
+kernel void refit_level(uint count, uint level, global const float4* sorted_boxes, global const uint2* children,
                         global const uint2* ranges, global const uint* levels, global volatile float4* inner_boxes,
                         global volatile uint* packed)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count - 1u || levels[i] != level) return;
-    const TreeView tree = {sorted_primitives, primitive_box_list, children, ranges, inner_boxes, packed};
+    const TreeView tree = {sorted_boxes, children, ranges, inner_boxes, packed};
     refit_node(tree, i);
 }
 
@@ -124,13 +133,13 @@ kernel void mark_nodes(uint count, global const uint* packed, global const uint2
 }
 
 /* Write the nodes that stay to their new places; new_indices are the scanned marks. */
-kernel void emit_nodes(uint count, global const uint* sorted_primitives, global const float4* primitive_box_list,
-                       global const uint2* children, global const uint2* ranges, global float4* inner_boxes,
-                       global uint* packed, global const uint* new_indices, global BvhNode* nodes)
+kernel void emit_nodes(uint count, global const float4* sorted_boxes, global const uint2* children,
+                       global const uint2* ranges, global float4* inner_boxes, global uint* packed,
+                       global const uint* new_indices, global BvhNode* nodes)
 {
     const uint i = (uint)get_global_id(0);
     if (i >= count - 1u || new_indices[i + 1u] == new_indices[i]) return;
-    const TreeView tree = {sorted_primitives, primitive_box_list, children, ranges, inner_boxes, packed};
+    const TreeView tree = {sorted_boxes, children, ranges, inner_boxes, packed};
     const uint2 child = children[i];
     const Subtree a = load_subtree(tree, child.x);
     const Subtree b = load_subtree(tree, child.y);

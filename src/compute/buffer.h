@@ -9,7 +9,7 @@
 
 namespace etendue
 {
-template <typename T>
+template<typename T>
 class Buffer
 {
 public:

@@ -25,7 +25,7 @@ public:
     // Enqueue over a one-dimensional range; local_size 0 leaves it to the driver and an empty range
     // does nothing. Arguments are Buffers (null pointer when
     // empty), LocalMemory, and plain shared values. Throws DeviceError naming device, kernel and error. Does not wait.
-    template <typename... Arguments>
+    template<typename... Arguments>
     void launch(std::size_t global_size, std::size_t local_size, const Arguments&... arguments)
     {
         cl_uint index = 0;
@@ -34,7 +34,7 @@ public:
     }
 
     // The same, then wait; returns seconds from enqueue to the end as the host sees them.
-    template <typename... Arguments>
+    template<typename... Arguments>
     double run(std::size_t global_size, std::size_t local_size, const Arguments&... arguments)
     {
         cl_uint index = 0;
@@ -43,13 +43,13 @@ public:
     }
 
 private:
-    template <typename T>
+    template<typename T>
     void set(cl_uint index, const Buffer<T>& buffer)
     {
         set_memory(index, buffer.handle());
     }
     void set(cl_uint index, const LocalMemory& local) { set_bytes(index, local.bytes, nullptr); }
-    template <typename T>
+    template<typename T>
     void set(cl_uint index, const T& value)
     {
         static_assert(std::is_trivially_copyable_v<T>);

@@ -11,11 +11,11 @@ enum class ExitCode { success = 0, usage = 1, scene = 2, device = 3, file = 4, c
 
 // A place in a scene file: where an object was written, for errors found later.
 struct SourceLocation {
-    std::string file;    // as the user named it, or "command line" for -D
-    int line = 0;        // from 1; 0: unknown
-    int column = 0;      // from 1, in bytes
-    std::string pointer; // JSON path, e.g. /materials/2/roughness
-    std::string excerpt; // the line of the file, for the caret; of a long line only the part around the column
+    std::string file;       // as the user named it, or "command line" for -D
+    int line = 0;           // from 1; 0: unknown
+    int column = 0;         // from 1, in bytes
+    std::string pointer;    // JSON path, e.g. /materials/2/roughness
+    std::string excerpt;    // the line of the file, for the caret; of a long line only the part around the column
     int excerpt_column = 1; // column of the excerpt's first byte
 };
 

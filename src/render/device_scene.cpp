@@ -1,0 +1,25 @@
+// Uploading a scene.
+#include "render/device_scene.h"
+
+#include "util/stopwatch.h"
+
+namespace etendue
+{
+DeviceScene::DeviceScene(const Device& device, const Geometry& geometry, const RenderSettings& settings, BvhPlace place,
+                         const KernelCache& cache)
+{
+    Stopwatch watch;
+    settings_ = Buffer<RenderSettings>(device, "settings", {settings});
+    primitives_ = Buffer<Primitive>(device, "primitives", geometry.primitives);
+    surfaces_ = Buffer<PrimitiveSurface>(device, "surfaces", geometry.surfaces);
+    normals_ = Buffer<real4>(device, "vertex normals", geometry.normals);
+    materials_ = Buffer<Material>(device, "materials", geometry.materials);
+    parameters_ = Buffer<real>(device, "material parameters", geometry.parameters);
+    lights_ = Buffer<Light>(device, "lights", geometry.lights);
+    light_table_ = Buffer<AliasBucket>(device, "light table", geometry.light_table);
+    upload_seconds_ = watch.restart();
+    if (settings.accelerator != ACCELERATOR_LBVH) return;
+    bvh_ = build_bvh(place, device, cache, geometry.primitives, primitives_);
+    bvh_seconds_ = watch.seconds();
+}
+} // namespace etendue

@@ -1,0 +1,57 @@
+// One device at work: whole paths in one kernel, then the film's sums.
+#pragma once
+
+#include "compute/kernel.h"
+#include "compute/specialization.h"
+#include "math/shared.h"
+#include "render/device_scene.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace etendue
+{
+// How a device is given its work. None of it changes a bit of the picture.
+struct LaunchShape {
+    std::uint32_t max_samples = 1u << 19; // of one launch: the size of the result buffers
+    std::uint32_t pool_size = 0;          // samples of one work-item; 0: as suits device and launch
+    std::uint32_t local_size = 0;         // 0: 1 on a CPU or with several lanes, 64 on a GPU
+};
+
+class Megakernel
+{
+public:
+    // Builds path_megakernel.cl (or normals.cl) with the specialization, and film.cl. Throws BuildError, DeviceError.
+    Megakernel(const Device& device, bool normals, const Specialization& specialization, const KernelCache& cache,
+               const LaunchShape& shape);
+
+    // Trace a unit and add its samples to the blocks of its pixels (row by row; aovs empty without AOVs). Returns the
+    // launch's counters. Waits for the end. Throws DeviceError.
+    LaunchCounters trace(const DeviceScene& scene, WorkUnit unit, std::vector<PixelBlock>& blocks,
+                         std::vector<PixelAov>& aovs);
+
+    // The accident code of the sample with this flat index in the last launch (see cl/shared/work.h).
+    std::uint32_t accident_code(std::uint32_t flat_index) const;
+
+    const Specialization& specialization() const { return specialization_; }
+    const LaunchShape& shape() const { return shape_; }
+    const BuildReport& path_report() const { return path_program_.report(); }
+    const BuildReport& film_report() const { return film_program_.report(); }
+    void store_in_cache();
+
+private:
+    std::uint32_t pool_size(std::uint64_t samples) const;
+
+    const Device* device_;
+    Specialization specialization_;
+    LaunchShape shape_;
+    Program path_program_, film_program_;
+    Kernel path_kernel_, film_kernel_;
+    Buffer<SampleResult> results_;
+    Buffer<SampleAov> sample_aovs_;
+    Buffer<PixelBlock> blocks_;
+    Buffer<PixelAov> block_aovs_;
+    Buffer<LaunchCounters> counters_;
+};
+} // namespace etendue

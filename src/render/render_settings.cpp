@@ -1,0 +1,91 @@
+// Settings from scene and geometry.
+#include "render/render_settings.h"
+
+#include <bit>
+#include <cmath>
+
+namespace etendue
+{
+namespace
+{
+// Testing every primitive costs a pack of rays the same for each; a tree costs a visit to a dozen nodes, whose order
+// the lanes cannot share. Measured on the course box with more and more triangles (tests/bench/lanes).
+constexpr std::size_t BRUTE_FORCE_LIMIT_WIDE = 64;
+constexpr std::size_t BRUTE_FORCE_LIMIT_SCALAR = 8;
+
+uint filter_number(FilterType type)
+{
+    switch (type) {
+    case FilterType::tent: return FILTER_TENT;
+    case FilterType::gaussian: return FILTER_GAUSSIAN;
+    case FilterType::box: break;
+    }
+    return FILTER_BOX;
+}
+
+uint roulette_number(RouletteType type)
+{
+    switch (type) {
+    case RouletteType::constant: return ROULETTE_CONSTANT;
+    case RouletteType::throughput: return ROULETTE_THROUGHPUT;
+    case RouletteType::off: break;
+    }
+    return ROULETTE_OFF;
+}
+
+// Radius, standard deviation, and the part of a round Gaussian within the radius.
+real4 filter_parameters(const FilmDescription& film)
+{
+    const double ratio = film.filter_radius / film.filter_sigma;
+    return make_real4(film.filter_radius, film.filter_sigma, -std::expm1(-0.5 * ratio * ratio));
+}
+
+void set_integrator(RenderSettings& settings, const IntegratorDescription& integrator, bool has_lights)
+{
+    const auto type = integrator.type;
+    settings.max_depth = integrator.max_depth.value_or(NONE);
+    settings.sample_lights = has_lights && (type == IntegratorType::light || type == IntegratorType::path);
+    settings.count_emission = type != IntegratorType::light;
+    settings.uniform_hemisphere = type == IntegratorType::hemisphere;
+    settings.roulette = roulette_number(integrator.roulette);
+    settings.roulette_start = integrator.roulette_start;
+    settings.roulette_parameters = make_real4(integrator.roulette_probability, 0, 0);
+}
+} // namespace
+
+AcceleratorType choose_accelerator(const AcceleratorDescription& wanted, std::size_t primitive_count,
+                                   std::uint32_t lanes)
+{
+    if (wanted.type) return *wanted.type;
+    const std::size_t limit = lanes > 1 ? BRUTE_FORCE_LIMIT_WIDE : BRUTE_FORCE_LIMIT_SCALAR;
+    return primitive_count <= limit ? ACCELERATOR_BRUTE_FORCE : ACCELERATOR_LBVH;
+}
+
+RenderSettings make_render_settings(const Scene& scene, const Geometry& geometry, AcceleratorType accelerator)
+{
+    RenderSettings settings{};
+    settings.camera = geometry.camera;
+    settings.width = static_cast<uint>(scene.film.width);
+    settings.height = static_cast<uint>(scene.film.height);
+    settings.seed_low = static_cast<uint>(scene.sampler.seed);
+    settings.seed_high = static_cast<uint>(scene.sampler.seed >> 32);
+    settings.filter = filter_number(scene.film.filter);
+    settings.filter_parameters = filter_parameters(scene.film);
+    set_integrator(settings, scene.integrator, !geometry.lights.empty());
+    settings.accelerator = static_cast<uint>(accelerator);
+    settings.primitive_count = static_cast<uint>(geometry.primitives.size());
+    settings.light_count = static_cast<uint>(geometry.lights.size());
+    settings.alias_shift = 32u;
+    if (!geometry.light_table.empty()) settings.alias_shift -= static_cast<uint>(std::countr_zero(geometry.light_table.size()));
+    settings.environment_light = NONE;
+    if (!geometry.lights.empty() && geometry.lights.back().type == LIGHT_ENVIRONMENT)
+        settings.environment_light = static_cast<uint>(geometry.lights.size() - 1);
+    settings.scene_bounds = geometry.bounding_sphere;
+    return settings;
+}
+
+std::uint64_t wanted_samples(const Scene& scene)
+{
+    return scene.integrator.type == IntegratorType::normals ? 1 : scene.sampler.samples_per_pixel;
+}
+} // namespace etendue

@@ -1,0 +1,75 @@
+// Renders a scene onto a film, on one device or several at once.
+#pragma once
+
+#include "compute/device.h"
+#include "geometry/geometry.h"
+#include "render/film.h"
+#include "render/megakernel.h"
+#include "render/render_report.h"
+#include "render/schedule.h"
+#include "scene/scene.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace etendue
+{
+struct RenderOptions {
+    std::vector<DeviceInfo> devices; // at least one
+    std::uint32_t threads = 0;       // compute units of each device; 0: all
+    std::uint32_t lanes = 0;         // 0: as suits each device
+    bool specialize = true;          // false: the general kernel
+    KernelCache cache;
+    LaunchShape shape;
+};
+
+// How far a render is.
+struct RenderProgress {
+    double fraction = 0.0; // of the samples asked for, or of the time
+    std::uint64_t samples_per_pixel = 0;
+    std::uint64_t rays = 0;
+};
+
+// When to stop, and whom to tell.
+struct RenderLimits {
+    std::uint64_t samples_per_pixel = 1;
+    std::optional<double> seconds;                        // of rendering; the next pass is predicted to fit
+    std::function<bool()> stop = [] { return false; };    // asked before each launch, from any worker's thread
+    std::function<void(const RenderProgress&)> progress = [](const RenderProgress&) {}; // after each launch, one at a time
+};
+
+class Renderer
+{
+public:
+    // Opens the devices, uploads, builds the tree, compiles. `geometry` outlives the renderer. Throws DeviceError,
+    // BuildError, UsageError for impossible options.
+    Renderer(const Scene& scene, const Geometry& geometry, bool has_aov, const RenderOptions& options);
+    ~Renderer();
+
+    // Add samples [0, samples_per_pixel) to a film that has none. Returns when done, out of time, or stopped; then the
+    // pixels may have unequal numbers of samples. Throws DeviceError.
+    void render(Film& film, const RenderLimits& limits);
+
+    // Complete after render().
+    const RenderReport& report() const { return report_; }
+
+    // Keep compiled kernels for the next run; call it when the picture is written.
+    void store_in_cache();
+
+private:
+    struct Worker;
+    void run_pass(Film& film, const Pass& pass, const RenderLimits& limits);
+    void work(Worker& worker, Film& film, Schedule& schedule, const RenderLimits& limits);
+    void add_counters(const Worker& worker, const WorkUnit& unit, const LaunchCounters& counters);
+    void tell(const RenderLimits& limits);
+
+    std::vector<std::unique_ptr<Worker>> workers_;
+    RenderReport report_;
+    std::mutex mutex_; // guards report_ and progress while workers run
+    std::uint64_t samples_done_ = 0, crop_pixels_ = 0;
+    std::function<double()> seconds_;
+};
+} // namespace etendue
