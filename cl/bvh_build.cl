@@ -79,7 +79,7 @@ kernel void build_hierarchy(global const ulong* codes, uint count, global uint2*
     parents[left_is_leaf ? count - 1u + left : left] = i;
     parents[right_is_leaf ? count - 1u + right : right] = i;
     arrivals[i] = 0u;
-    if (i == 0u) parents[0] = NONE;
+    if (i == 0u) parents[0] = NO_INDEX;
 }
 
 /* Boxes, costs and leaves bottom-up: one work-item per primitive climbs; of the two that meet at a node the first stops
@@ -92,7 +92,7 @@ kernel void climb_boxes(uint count, global const float4* sorted_boxes, global co
     if (position >= count) return;
     const TreeView tree = {sorted_boxes, children, ranges, inner_boxes, packed};
     uint node = parents[count - 1u + position];
-    while (node != NONE && atomic_xchg(&arrivals[node], 1u) != 0u) {
+    while (node != NO_INDEX && atomic_xchg(&arrivals[node], 1u) != 0u) {
         /* The first arriver's stores came before its exchange; ours must come before the next one. */
         mem_fence(CLK_GLOBAL_MEM_FENCE);
         refit_node(tree, node);
@@ -107,7 +107,7 @@ kernel void node_levels(uint count, global const uint* parents, global uint* lev
     const uint i = (uint)get_global_id(0);
     if (i >= count - 1u) return;
     uint level = 0u;
-    for (uint node = parents[i]; node != NONE; node = parents[node]) ++level;
+    for (uint node = parents[i]; node != NO_INDEX; node = parents[node]) ++level;
     levels[i] = level;
     atomic_max(deepest, level);
 }

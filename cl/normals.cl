@@ -24,7 +24,7 @@ kernel void normals(SCENE_ARGUMENTS, WorkUnit unit, global SampleResult* results
         Mask wanted = path.active;
         path.accident = (Uint)(0u);
         Hit hit = path_extend(view, &path);
-        Mask met = path.active & (hit.primitive != NONE);
+        Mask met = path.active & (hit.primitive != NO_INDEX);
         Surface surface = make_surface(view.primitives, view.surfaces, view.normals, met, path.ray, hit);
         if (HAS_AOV) store_aov(view, aovs, index, wanted, surface, hit);
         Vec3 half_unit = scale3(white(), (Float)(0.5));

@@ -20,15 +20,15 @@ kernel void path_megakernel(SCENE_ARGUMENTS, WorkUnit unit, global SampleResult*
     path.delta = to_mask(false);
     path.pdf = path.radiance_scale = (Float)(1.0);
     path.vertices = path.accident = (Uint)(0u);
-    path.ray.from = (Uint)(NONE);
-    Uint index = (Uint)(NONE);
+    path.ray.from = (Uint)(NO_INDEX);
+    Uint index = (Uint)(NO_INDEX);
     Mask idle = to_mask(true);
 
     for (;;) {
         /* Store what has ended, and refill. */
         uint idle_count = count_of(idle);
         if (idle_count >= REFILL_LANES) {
-            Mask done = idle & (index != NONE);
+            Mask done = idle & (index != NO_INDEX);
             if (any_of(done)) {
                 Uint accident;
                 Color radiance = path_end(&path, &accident);
@@ -52,7 +52,7 @@ kernel void path_megakernel(SCENE_ARGUMENTS, WorkUnit unit, global SampleResult*
         /* One step of every path. */
         Mask first = path.active & (path.vertices == 0u);
         Hit hit = path_extend(view, &path);
-        Mask met = path.active & (hit.primitive != NONE);
+        Mask met = path.active & (hit.primitive != NO_INDEX);
         Surface surface = make_surface(view.primitives, view.surfaces, view.normals, met, path.ray, hit);
         if (HAS_AOV && any_of(first)) store_aov(view, aovs, index, first, surface, hit);
         path_emission(view, &path, surface, hit);

@@ -14,7 +14,7 @@ STATIC Ray pinhole_ray(global const Camera* camera, Float x, Float y, uint width
     ray.origin = broadcast3(camera->position);
     ray.direction = normalize3(direction);
     ray.t_max = (Float)(INFINITE);
-    ray.from = (Uint)(NONE);
-    ray.to = (Uint)(NONE);
+    ray.from = (Uint)(NO_INDEX);
+    ray.to = (Uint)(NO_INDEX);
     return ray;
 }

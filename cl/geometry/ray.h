@@ -8,20 +8,20 @@ typedef struct Ray {
     Vec3 origin;
     Vec3 direction;
     Float t_max;
-    Uint from; /* primitive on which the origin lies, or NONE */
-    Uint to;   /* primitive that cannot block (a shadow ray's target), or NONE */
+    Uint from; /* primitive on which the origin lies, or NO_INDEX */
+    Uint to;   /* primitive that cannot block (a shadow ray's target), or NO_INDEX */
 } Ray;
 
 /* Closest hit so far. Barycentrics of the second and third vertex, triangles only. */
 typedef struct Hit {
     Float t;
-    Uint primitive; /* NONE: nothing */
+    Uint primitive; /* NO_INDEX: nothing */
     Float b1, b2;
 } Hit;
 
 STATIC Hit no_hit(Float t_max)
 {
-    Hit hit = {t_max, (Uint)(NONE), (Float)(0.0), (Float)(0.0)};
+    Hit hit = {t_max, (Uint)(NO_INDEX), (Float)(0.0), (Float)(0.0)};
     return hit;
 }
 

@@ -13,7 +13,7 @@ typedef struct Surface {
     Vec3 wo;       /* unit, back along the ray */
     Uint primitive;
     Uint material;
-    Uint light; /* NONE: does not emit */
+    Uint light; /* NO_INDEX: does not emit */
     Float area; /* of the primitive */
 } Surface;
 
@@ -97,7 +97,7 @@ STATIC Surface make_surface(global const Primitive* primitives, global const Pri
     surface.ng = choose3(flip, negate3(surface.ng), surface.ng);
     surface.ns = surface.ng;
     if (HAS_VERTEX_NORMALS) {
-        Mask smooth = active & (normal_index != NONE);
+        Mask smooth = active & (normal_index != NO_INDEX);
         if (any_of(smooth)) {
             /* Interpolate the vertex normals, and keep to the side of the geometric normal. */
             Vec3 n0, n1, n2;

@@ -8,15 +8,14 @@
 STATIC PixelBlock block_add(PixelBlock block, real4 sample)
 {
     real n = block.sum.w;
-    /* Compare with the mean before and after. */
+    /* Compare with the mean so far. */
     real4 before = n > 0.0 ? (block.sum - block.compensation) / n : (real4)(0.0);
     real4 delta = n > 0.0 ? sample - before : (real4)(0.0);
     /* Add, keeping what is rounded away. */
     real4 corrected = sample - block.compensation;
     real4 sum = block.sum + corrected;
     real4 compensation = (sum - block.sum) - corrected;
-    real4 after = (sum - compensation) / (n + 1.0);
-    real4 m2 = block.m2 + delta * (sample - after);
+    real4 m2 = block.m2 + delta * delta * (n / (n + 1.0));
     PixelBlock next;
     next.sum = (real4)(sum.xyz, n + 1.0);
     next.compensation = (real4)(compensation.xyz, 0.0);

@@ -48,8 +48,8 @@ STATIC void path_begin(SceneView view, PathState* path, Mask fresh, Uint x, Uint
     path->ray.origin = choose3(fresh, ray.origin, path->ray.origin);
     path->ray.direction = choose3(fresh, ray.direction, path->ray.direction);
     path->ray.t_max = (Float)(INFINITE);
-    path->ray.from = fresh ? (Uint)(NONE) : path->ray.from;
-    path->ray.to = (Uint)(NONE);
+    path->ray.from = fresh ? (Uint)(NO_INDEX) : path->ray.from;
+    path->ray.to = (Uint)(NO_INDEX);
     path->throughput = choose3(fresh, white(), path->throughput);
     path->radiance = choose3(fresh, black(), path->radiance);
     path->pdf = fresh ? (Float)(1.0) : path->pdf;
@@ -98,9 +98,9 @@ STATIC void path_add(PathState* path, Mask mask, Color radiance)
 /* Add the emission of what was met, or of the environment where nothing was; paths that met nothing end. */
 STATIC void path_emission(SceneView view, PathState* path, Surface surface, Hit hit)
 {
-    Mask met = path->active & (hit.primitive != NONE);
+    Mask met = path->active & (hit.primitive != NO_INDEX);
     if (HAS_AREA) {
-        Mask emits = met & (surface.light != NONE);
+        Mask emits = met & (surface.light != NO_INDEX);
         if (any_of(emits)) {
             LightHit light = light_hit(view, surface, emits, path->ray, hit);
             Mask lit = emits & (max_component(light.radiance) > 0.0);

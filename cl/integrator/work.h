@@ -23,9 +23,9 @@ STATIC Mask take_samples(SamplePool* pool, Mask idle, Uint* index)
     UintLanes taken;
     taken.lanes = *index;
     for (uint bits = lane_bits(idle); bits != 0u; bits &= bits - 1u)
-        taken.lane[lowest_bit(bits)] = pool->next < pool->end ? pool->next++ : NONE;
+        taken.lane[lowest_bit(bits)] = pool->next < pool->end ? pool->next++ : NO_INDEX;
     *index = taken.lanes;
-    return idle & (*index != NONE);
+    return idle & (*index != NO_INDEX);
 }
 
 /* Pixel of the whole film and random stream of a flat index. */
@@ -47,7 +47,7 @@ STATIC void place_sample(SceneView view, WorkUnit unit, Uint index, Uint* x, Uin
 /* Albedo, shading normal and distance of the first surface; zero where nothing was met. */
 STATIC void store_aov(SceneView view, global SampleAov* aovs, Uint index, Mask first, Surface surface, Hit hit)
 {
-    Mask met = first & (hit.primitive != NONE);
+    Mask met = first & (hit.primitive != NO_INDEX);
     Color albedo = black();
     Vec3 normal = black();
     if (any_of(met)) {

@@ -8,7 +8,7 @@ STATIC LightSample environment_light_sample(Color radiance, Float u, Float v)
     sample.wi = uniform_sphere_sample(u, v);
     sample.to_light = sample.wi;
     sample.t_max = (Float)(INFINITE);
-    sample.primitive = (Uint)(NONE);
+    sample.primitive = (Uint)(NO_INDEX);
     sample.radiance = radiance;
     sample.pdf = uniform_sphere_pdf();
     return sample;

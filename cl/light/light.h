@@ -49,7 +49,7 @@ STATIC LightSample light_sample(SceneView view, Mask active, Vec3 from, RandomBl
 STATIC LightHit light_hit(SceneView view, Surface surface, Mask active, Ray ray, Hit hit)
 {
     LightHit result = {black(), (Float)(0.0)};
-    Mask emits = active & (surface.light != NONE);
+    Mask emits = active & (surface.light != NO_INDEX);
     if (HAS_AREA && any_of(emits)) {
         Color radiance;
         Float probability;
@@ -70,7 +70,7 @@ STATIC LightHit light_escape(SceneView view)
 {
     LightHit result = {black(), (Float)(0.0)};
     uint environment = view.settings->environment_light;
-    if (HAS_ENVIRONMENT && environment != NONE) {
+    if (HAS_ENVIRONMENT && environment != NO_INDEX) {
         real4 radiance = view.lights[environment].radiance;
         result.radiance = broadcast3(radiance);
         result.pdf = (Float)(radiance.w) * environment_light_pdf();

@@ -5,7 +5,7 @@
 #define SAMPLES_PER_BLOCK 64
 
 /* "No such thing" wherever an index is stored. */
-#define NONE 0xffffffffu
+#define NO_INDEX 0xffffffffu
 
 /* A path with no other limit ends here and is counted in Health. */
 #define MAX_PATH_VERTICES 65536u

@@ -21,8 +21,8 @@ typedef struct Primitive {
 /* How a primitive looks, by primitive id. */
 typedef struct PrimitiveSurface {
     uint material; /* index into Material[] */
-    uint light;    /* index into Light[], or NONE */
-    uint normal;   /* index of the first of three real4 vertex normals, or NONE */
+    uint light;    /* index into Light[], or NO_INDEX */
+    uint normal;   /* index of the first of three real4 vertex normals, or NO_INDEX */
     uint flags;    /* SURFACE_* */
 } PrimitiveSurface;
 

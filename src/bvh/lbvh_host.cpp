@@ -80,7 +80,7 @@ public:
     // Keep what is reachable from the root, in the order of the numbers.
     std::vector<BvhNode> compact()
     {
-        std::vector<uint> new_index(nodes_.size(), NONE);
+        std::vector<uint> new_index(nodes_.size(), NO_INDEX);
         std::vector<uint> stack{0};
         while (!stack.empty()) {
             const uint index = stack.back();
@@ -91,9 +91,9 @@ public:
         }
         uint count = 0;
         for (uint& index : new_index)
-            if (index != NONE) index = count++;
+            if (index != NO_INDEX) index = count++;
         for (std::size_t i = 0; i < nodes_.size(); ++i) {
-            if (new_index[i] == NONE) continue;
+            if (new_index[i] == NO_INDEX) continue;
             BvhNode node = nodes_[i];
             for (std::size_t c = 0; c < 2; ++c)
                 if (!(node.child.s[c] & LEAF_BIT)) node.child.s[c] = new_index[node.child.s[c]];

@@ -89,7 +89,7 @@ private:
         const Vec3 edge_2 = normalised(world[2], normalisation_) - normalised(world[0], normalisation_);
         PrimitiveSurface& surface = write_surface(placed.shape, glm::length(glm::cross(edge_1, edge_2)) / 2.0);
         const glm::u32vec3 n = mesh.normals_of(index);
-        if (n.x == NONE) return 0;
+        if (n.x == NO_INDEX) return 0;
         return write_normals(surface, unit_or_zero(glm::cross(b - a, c - a)),
                              {mesh.normals[n.x], mesh.normals[n.y], mesh.normals[n.z]});
     }
@@ -150,9 +150,9 @@ private:
         const ShapeDescription& shape = scene_.shapes[shape_index];
         const auto primitive = static_cast<std::uint32_t>(geometry_.surfaces.size());
         const uint light =
-            shape.emission ? add_area_light(lights_, *shape.emission, primitive, area, shape.location) : NONE;
+            shape.emission ? add_area_light(lights_, *shape.emission, primitive, area, shape.location) : NO_INDEX;
         turned_round_ = shape.flip_normals;
-        geometry_.surfaces.push_back({shape.material, light, NONE, turned_round_ ? SURFACE_FLIP_NORMAL : 0});
+        geometry_.surfaces.push_back({shape.material, light, NO_INDEX, turned_round_ ? SURFACE_FLIP_NORMAL : 0});
         return geometry_.surfaces.back();
     }
 

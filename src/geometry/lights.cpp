@@ -26,7 +26,7 @@ std::uint32_t append(LightList& list, uint type, uint primitive, uint flags, con
                      double power_per_radiance)
 {
     const real4 rounded = make_real4(radiance.x, radiance.y, radiance.z);
-    if (rounded.s[0] == 0.0f && rounded.s[1] == 0.0f && rounded.s[2] == 0.0f) return NONE;
+    if (rounded.s[0] == 0.0f && rounded.s[1] == 0.0f && rounded.s[2] == 0.0f) return NO_INDEX;
     list.lights.push_back({type, primitive, flags, 0, rounded});
     list.powers.push_back((radiance.x / 3 + radiance.y / 3 + radiance.z / 3) * power_per_radiance);
     return static_cast<std::uint32_t>(list.lights.size() - 1);
@@ -47,7 +47,7 @@ void add_environment_light(LightList& list, const EnvironmentDescription& enviro
     check_radiance(environment.radiance, environment.location);
     // Parallel light of each direction goes through the disk of the scene's sphere; integrate over all directions.
     const double disk = std::numbers::pi * scene_radius * scene_radius;
-    append(list, LIGHT_ENVIRONMENT, NONE, 0, environment.radiance, std::numbers::pi * disk);
+    append(list, LIGHT_ENVIRONMENT, NO_INDEX, 0, environment.radiance, std::numbers::pi * disk);
 }
 
 std::vector<AliasBucket> make_light_table(LightList& list)

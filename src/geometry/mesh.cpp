@@ -26,7 +26,7 @@ void check_indices(const PolygonMesh& mesh, const std::string& file)
         std::size_t at = 0;
         for (std::size_t face = 0; face < mesh.sizes.size(); ++face)
             for (std::uint32_t i = 0; i < mesh.sizes[face]; ++i, ++at)
-                if (corners[at] >= count && !(corners[at] == NONE && &corners == &mesh.normal_corners))
+                if (corners[at] >= count && !(corners[at] == NO_INDEX && &corners == &mesh.normal_corners))
                     throw_face_error(mesh, file, face,
                                      fmt::format("uses {} {}, but the file has {}, numbered from {}.", what,
                                                  std::uint64_t{corners[at]} + mesh.first_index, count,
@@ -94,7 +94,7 @@ void append_fan(std::vector<glm::u32vec3>& triangles, std::span<const std::uint3
 
 glm::u32vec3 Mesh::normals_of(std::size_t triangle) const
 {
-    if (normals.empty()) return glm::u32vec3(NONE);
+    if (normals.empty()) return glm::u32vec3(NO_INDEX);
     return normal_indices.empty() ? indices[triangle] : normal_indices[triangle];
 }
 

@@ -14,10 +14,10 @@ struct Mesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;                // empty: the mesh is flat
     std::vector<glm::u32vec3> indices;        // three positions per triangle
-    std::vector<glm::u32vec3> normal_indices; // three normals per triangle, NONE for a flat one; empty: as indices
+    std::vector<glm::u32vec3> normal_indices; // three normals per triangle, NO_INDEX for a flat one; empty: as indices
     std::vector<std::string> warnings;        // complete sentences
 
-    // Indices into normals of a triangle's corners; NONE where it has none.
+    // Indices into normals of a triangle's corners; NO_INDEX where it has none.
     glm::u32vec3 normals_of(std::size_t triangle) const;
 };
 
@@ -27,7 +27,7 @@ struct PolygonMesh {
     std::vector<Vec3> normals;
     std::vector<std::uint32_t> sizes;          // corners of each face
     std::vector<std::uint32_t> corners;        // position indices from 0, face by face
-    std::vector<std::uint32_t> normal_corners; // as corners, NONE where a face has no normals; empty: as corners
+    std::vector<std::uint32_t> normal_corners; // as corners, NO_INDEX where a face has no normals; empty: as corners
     std::vector<std::uint32_t> lines;          // line of each face in a text file; may be empty
     std::uint32_t first_index = 0;             // what the file calls the first vertex: 1 in OBJ, 0 in PLY
     std::vector<std::string> warnings;

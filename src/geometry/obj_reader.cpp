@@ -93,7 +93,7 @@ private:
         mesh_.corners.push_back(resolve(word, word.substr(0, first), mesh_.positions.size(), "vertex"));
         const bool has_normal = second != std::string_view::npos;
         mesh_.normal_corners.push_back(
-            has_normal ? resolve(word, word.substr(second + 1), mesh_.normals.size(), "normal") : NONE);
+            has_normal ? resolve(word, word.substr(second + 1), mesh_.normals.size(), "normal") : NO_INDEX);
         return has_normal;
     }
 
@@ -102,7 +102,7 @@ private:
     {
         const auto index = parse_integer(number);
         if (!index) fail_corner(corner);
-        const auto limit = static_cast<std::int64_t>(NONE);
+        const auto limit = static_cast<std::int64_t>(NO_INDEX);
         const auto known = static_cast<std::int64_t>(count);
         if (*index == 0 || *index < -known || *index > limit)
             fail(fmt::format("face {} uses {} {}, but there are {} so far, numbered from 1.", mesh_.sizes.size() + 1,

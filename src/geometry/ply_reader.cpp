@@ -71,7 +71,7 @@ void read_corners(Source& source, const PlyProperty& list, std::uint64_t face, P
     if (size < 3) source.fail(fmt::format("face {} has {} corners; a face needs at least three.", face, size));
     for (std::int64_t i = 0; i < size; ++i) {
         const std::int64_t index = source.integer(list.type);
-        if (index < 0 || index >= std::int64_t{NONE})
+        if (index < 0 || index >= std::int64_t{NO_INDEX})
             source.fail(fmt::format("face {} uses vertex {}, which is no index.", face, index));
         mesh.corners.push_back(static_cast<std::uint32_t>(index));
     }
@@ -125,7 +125,7 @@ void check_count(const PlyElement& element, PlyEncoding encoding, std::size_t re
         throw FileError(file,
                         fmt::format("the header claims {} elements {}, but the rest of the file can hold {} at most.",
                                     element.count, quote(element.name), most));
-    if (element.count >= NONE) throw FileError(file, fmt::format("has too many elements {}.", quote(element.name)));
+    if (element.count >= NO_INDEX) throw FileError(file, fmt::format("has too many elements {}.", quote(element.name)));
 }
 
 template<class Source>

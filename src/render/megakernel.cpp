@@ -57,7 +57,7 @@ LaunchCounters Megakernel::trace(const DeviceScene& scene, WorkUnit unit, std::v
     const auto round_up = [&](std::uint64_t n) { return (n + shape_.local_size - 1) / shape_.local_size * shape_.local_size; };
 
     LaunchCounters counters{};
-    std::fill(std::begin(counters.health_first), std::end(counters.health_first), NONE);
+    std::fill(std::begin(counters.health_first), std::end(counters.health_first), NO_INDEX);
     counters_.write(&counters, 1);
     blocks_.write(blocks);
     block_aovs_.write(aovs);

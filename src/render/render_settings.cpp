@@ -43,7 +43,7 @@ real4 filter_parameters(const FilmDescription& film)
 void set_integrator(RenderSettings& settings, const IntegratorDescription& integrator, bool has_lights)
 {
     const auto type = integrator.type;
-    settings.max_depth = integrator.max_depth.value_or(NONE);
+    settings.max_depth = integrator.max_depth.value_or(NO_INDEX);
     settings.sample_lights = has_lights && (type == IntegratorType::light || type == IntegratorType::path);
     settings.count_emission = type != IntegratorType::light;
     settings.uniform_hemisphere = type == IntegratorType::hemisphere;
@@ -77,7 +77,7 @@ RenderSettings make_render_settings(const Scene& scene, const Geometry& geometry
     settings.light_count = static_cast<uint>(geometry.lights.size());
     settings.alias_shift = 32u;
     if (!geometry.light_table.empty()) settings.alias_shift -= static_cast<uint>(std::countr_zero(geometry.light_table.size()));
-    settings.environment_light = NONE;
+    settings.environment_light = NO_INDEX;
     if (!geometry.lights.empty() && geometry.lights.back().type == LIGHT_ENVIRONMENT)
         settings.environment_light = static_cast<uint>(geometry.lights.size() - 1);
     settings.scene_bounds = geometry.bounding_sphere;

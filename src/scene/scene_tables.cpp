@@ -11,7 +11,7 @@ namespace
 const Range COORDINATE{-MAX_COORDINATE, MAX_COORDINATE};
 const Range LENGTH{0, MAX_COORDINATE, true};
 const Range RADIANCE{0, MAX_RADIANCE};
-const Range INDEX{0, NONE - 1.0};
+const Range INDEX{0, NO_INDEX - 1.0};
 const Range SEED{0};
 
 std::vector<Variant> accelerator_variants()

@@ -53,7 +53,7 @@ void append(std::vector<ReferenceShape>& shapes, const ShapeDescription& shape, 
                        c = mesh.positions[mesh.indices[i].z];
             // The vertex normals, where there are any, tell which side is out; else the winding does.
             double out = determinant < 0.0 ? -side : side;
-            if (const glm::u32vec3 n = mesh.normals_of(i); n.x != NONE)
+            if (const glm::u32vec3 n = mesh.normals_of(i); n.x != NO_INDEX)
                 out *= dot(cross(b - a, c - a), mesh.normals[n.x] + mesh.normals[n.y] + mesh.normals[n.z]) < 0 ? -1 : 1;
             const Vec3 edge1 = place(b) - place(a), edge2 = place(c) - place(a), n = cross(edge1, edge2);
             shapes.push_back(

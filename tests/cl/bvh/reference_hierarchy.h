@@ -21,7 +21,7 @@ struct ReferenceHierarchy {
     explicit ReferenceHierarchy(std::vector<cl_ulong> sorted_codes)
         : codes(std::move(sorted_codes)), children(count() - 1), ranges(count() - 1), parents(2 * codes.size() - 1)
     {
-        build(0, count() - 1, NONE, true);
+        build(0, count() - 1, NO_INDEX, true);
     }
 
 private:
@@ -41,7 +41,7 @@ private:
         while (!bit(split + 1, i)) ++split;
 
         // A first child is numbered by its last position, a second by its first; the root is 0.
-        const uint node = parent == NONE ? 0 : is_first_child ? last : first;
+        const uint node = parent == NO_INDEX ? 0 : is_first_child ? last : first;
         parents[node] = parent;
         ranges[node] = {{first, last}};
         const uint a = build(first, split, node, true), b = build(split + 1, last, node, false);

@@ -141,7 +141,7 @@ TEST_CASE("the climb fills every node from its children, and level by level give
             const std::vector<cl_float4> boxes = random_boxes(tree.count());
             std::vector<cl_uint> levels(tree.count() - 1, 0);
             for (uint i = 0; i + 1 < tree.count(); ++i)
-                for (uint node = tree.parents[i]; node != NONE; node = tree.parents[node]) ++levels[i];
+                for (uint node = tree.parents[i]; node != NO_INDEX; node = tree.parents[node]) ++levels[i];
 
             Inputs inputs(device, program, tree, boxes);
             const Refitted climbed = inputs.climb();

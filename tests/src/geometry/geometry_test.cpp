@@ -143,12 +143,12 @@ TEST_CASE("primitives are triangles, spheres, disks, whatever the order of shape
     REQUIRE(g.primitives.size() == 4);
     REQUIRE(g.surfaces.size() == 4);
     const int kinds[] = {PRIMITIVE_TRIANGLE, PRIMITIVE_TRIANGLE, PRIMITIVE_SPHERE, PRIMITIVE_DISK};
-    const uint materials[] = {0, 0, 2, 1}, lights[] = {0, 1, NONE, 2};
+    const uint materials[] = {0, 0, 2, 1}, lights[] = {0, 1, NO_INDEX, 2};
     for (std::size_t i = 0; i < 4; ++i) {
         CHECK(g.primitives[i].a.s[3] == static_cast<float>(kinds[i]));
         CHECK(g.surfaces[i].material == materials[i]);
         CHECK(g.surfaces[i].light == lights[i]);
-        CHECK(g.surfaces[i].normal == NONE);
+        CHECK(g.surfaces[i].normal == NO_INDEX);
         CHECK(g.surfaces[i].flags == 0);
     }
     REQUIRE(g.lights.size() == 4);
@@ -183,16 +183,16 @@ TEST_CASE("triangles face the side of their vertex normals, and flat ones keep n
         Scene scene = scene_of(one_triangle(normals), transform);
         scene.shapes[0].flip_normals = flip_normals;
         const Geometry g = make_geometry(scene);
-        CHECK(g.normals.size() == (g.surfaces[0].normal == NONE ? 0 : 3));
+        CHECK(g.normals.size() == (g.surfaces[0].normal == NO_INDEX ? 0 : 3));
         return g.surfaces[0];
     };
     const Vec3 z(0, 0, 1), oblique(0.6, 0, 0.8);
     CHECK(surface({}, false).flags == 0);
     CHECK(surface({}, true).flags == SURFACE_FLIP_NORMAL);
     CHECK(surface({z, z, z}, false).flags == 0);
-    CHECK(surface({z, z, z}, false).normal == NONE);
+    CHECK(surface({z, z, z}, false).normal == NO_INDEX);
     CHECK(surface({-z, -z, -z}, false).flags == SURFACE_FLIP_NORMAL);
-    CHECK(surface({-z, -z, -z}, false).normal == NONE);
+    CHECK(surface({-z, -z, -z}, false).normal == NO_INDEX);
     CHECK(surface({-z, -z, -z}, true).flags == 0);
     CHECK(surface({z, oblique, z}, false).normal == 0);
     CHECK(surface({z, oblique, -z}, false).flags == 0);

@@ -36,7 +36,7 @@ TEST_CASE("lights are chosen by power, with a uniform share")
     CHECK(list.lights[0].radiance.s[0] == 3.0f);
     CHECK(list.lights[1].flags == LIGHT_TWO_SIDED);
     CHECK(list.lights[2].type == LIGHT_ENVIRONMENT);
-    CHECK(list.lights[2].primitive == NONE);
+    CHECK(list.lights[2].primitive == NO_INDEX);
 }
 
 TEST_CASE("of two lights of 1e8 and 1e-8 the dim one is still chosen every twentieth time")
@@ -52,8 +52,8 @@ TEST_CASE("of two lights of 1e8 and 1e-8 the dim one is still chosen every twent
 TEST_CASE("what emits nothing is no light, and an environment alone is chosen always")
 {
     LightList list;
-    CHECK(add_area_light(list, {Vec3(0.0), false}, 0, 1.0, {}) == NONE);
-    CHECK(add_area_light(list, {Vec3(1e-60), false}, 0, 1.0, {}) == NONE);
+    CHECK(add_area_light(list, {Vec3(0.0), false}, 0, 1.0, {}) == NO_INDEX);
+    CHECK(add_area_light(list, {Vec3(1e-60), false}, 0, 1.0, {}) == NO_INDEX);
     CHECK(make_light_table(list).empty());
     add_environment_light(list, {Vec3(1.0), {}}, 0.0);
     CHECK(make_light_table(list).size() == 1);

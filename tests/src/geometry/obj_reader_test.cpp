@@ -25,7 +25,7 @@ TEST_CASE("every way to write the corners of an OBJ face gives the same triangle
         INFO(face);
         const Mesh mesh = read(parts + face);
         CHECK(mesh.indices == std::vector<glm::u32vec3>{{0, 1, 2}});
-        CHECK(mesh.normals_of(0) == glm::u32vec3(NONE));
+        CHECK(mesh.normals_of(0) == glm::u32vec3(NO_INDEX));
     }
     for (const char* face :
          {"f 1//2 2//2 3//1", "f 1/1/2 2/1/2 3/1/1", "f -4//-1 -3//-1 -2//-2", "f 1//2 2/1/2 3//1"}) {
@@ -42,7 +42,7 @@ TEST_CASE("an OBJ file may mix faces with and without normals, sizes of faces, c
         read("f 1//1 2//1 3//1 4//1\nf 1 2 3\nv 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0\nv 0 1 0\nvn 0 0 1\n");
     REQUIRE(mesh.indices.size() == 3);
     CHECK(mesh.normals_of(1) == glm::u32vec3(0));
-    CHECK(mesh.normals_of(2) == glm::u32vec3(NONE));
+    CHECK(mesh.normals_of(2) == glm::u32vec3(NO_INDEX));
     CHECK(mesh.positions[2] == Vec3(1, 1, 0));
 }
 

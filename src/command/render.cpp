@@ -1,0 +1,186 @@
+// `etendue render`: load, render, write.
+#include "command/render.h"
+
+#include "command/render_arguments.h"
+#include "image/image_io.h"
+#include "render/render_settings.h"
+#include "render/renderer.h"
+#include "render/report.h"
+#include "scene/scene_loader.h"
+#include "util/file.h"
+#include "util/interrupt.h"
+#include "util/progress.h"
+#include "util/stopwatch.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+
+namespace etendue
+{
+namespace
+{
+const char* const EXAMPLES = "Examples:\n"
+                             "  etendue render scenes/course-box/simple.json\n"
+                             "  etendue render room.json -o room.exr -o room.png --spp 256 --report report.json\n"
+                             "  etendue render room.json --time 30 --device gpu\n"
+                             "  etendue render room.json --integrator normals -o normals.png\n"
+                             "  etendue render room.json -D integrator.max_depth=1 --crop 100,100,64,64\n"
+                             "\n"
+                             "Ctrl-C finishes the launch in flight and writes the samples there are (exit code 130); a\n"
+                             "second one ends at once. The same seed on the same device gives the same bits.";
+
+// More samples than a life is long, for renders that only time ends.
+constexpr std::uint64_t UNLIMITED_SAMPLES = std::uint64_t{1} << 40;
+
+std::string extension_of(const std::string& path)
+{
+    const auto dot = path.rfind('.');
+    return dot == std::string::npos ? "" : path.substr(dot);
+}
+
+RenderOptions render_options(const RenderArguments& arguments, Log& log)
+{
+    RenderOptions options;
+    const DeviceList list = list_devices();
+    options.devices = select_devices(list, arguments.device);
+    for (const std::string& warning : list.warnings) log.warning(warning);
+    options.threads = arguments.threads;
+    options.lanes = arguments.lanes;
+    options.specialize = arguments.specialize == "on";
+    options.cache = arguments.no_cache ? KernelCache::none() : KernelCache::standard();
+    if (!options.cache.warning().empty()) log.warning(options.cache.warning());
+    return options;
+}
+
+void describe(const Scene& scene, const Geometry& geometry, Log& log)
+{
+    log.info(fmt::format("{}: {} triangles, {} spheres, {} disks, {} lights; {}x{} pixels", scene.file,
+                         geometry.triangle_count, geometry.sphere_count, geometry.disk_count, geometry.lights.size(),
+                         scene.film.width, scene.film.height));
+}
+
+RenderLimits render_limits(const Scene& scene, const RenderArguments& arguments, Progress& progress, const Film& film)
+{
+    RenderLimits limits;
+    limits.samples_per_pixel = wanted_samples(scene);
+    if (arguments.seconds && !arguments.samples) limits.samples_per_pixel = UNLIMITED_SAMPLES;
+    limits.seconds = arguments.seconds;
+    limits.stop = interrupted;
+    const std::uint64_t shown_total = arguments.seconds ? 0 : limits.samples_per_pixel;
+    limits.progress = [&progress, &film, shown_total](const RenderProgress& p) {
+        if (!progress.due()) return;
+        progress.show({p.fraction, p.samples_per_pixel, shown_total, static_cast<double>(p.rays), film.relative_error()});
+    };
+    return limits;
+}
+
+void write_pictures(const RenderArguments& arguments, const Scene& scene, const Image& image, Log& log)
+{
+    for (const std::string& path : outputs_of(arguments)) {
+        const WriteReport written = write_image(image, path, {scene.film.tone_map, scene.film.exposure});
+        if (written.non_finite_values > 0)
+            log.warning(fmt::format("{}: {} values are not finite.", path, written.non_finite_values));
+        log.info(fmt::format("wrote {}", path));
+    }
+}
+
+void report_accidents(const RenderReport& report, Log& log)
+{
+    for (std::size_t kind = 0; kind < HEALTH_KINDS; ++kind) {
+        const HealthRecord& record = report.health[kind];
+        if (record.count == 0) continue;
+        log.warning(fmt::format("{} samples counted as zero because of {}; the first is pixel {},{} sample {} vertex {}.",
+                                record.count, health_name(kind), record.first->x, record.first->y, record.first->sample,
+                                record.first->vertex));
+    }
+}
+
+void summarise(const RenderReport& report, double relative_error, Log& log)
+{
+    for (const DeviceReport& device : report.devices)
+        log.detail(fmt::format("{}: {} samples in {} launches, {} lanes, {} of {} features compiled in", device.info.name,
+                               device.samples, device.units, device.specialization.lanes,
+                               std::popcount(device.specialization.features), static_cast<int>(Feature::COUNT)));
+    log.info(fmt::format("{} samples per pixel in {:.2f} s: {:.2f} Mrays/s, relative error {:.4f}, set-up {:.2f} s",
+                         report.samples_per_pixel, report.render_seconds, report.rays_per_second() / 1e6, relative_error,
+                         report.setup_seconds));
+    if (report.interrupted) log.warning("interrupted: the pictures hold the samples there were.");
+}
+
+// Seconds of every phase of the program, whichever of several devices took longest.
+Phases phases_of(const RenderReport& report, double parse, const Geometry& geometry, double geometry_seconds)
+{
+    const auto slowest = [&](double DeviceReport::*member) {
+        double seconds = 0.0;
+        for (const DeviceReport& device : report.devices) seconds = std::max(seconds, device.*member);
+        return seconds;
+    };
+    return {{"parse", parse},
+            {"mesh_load", geometry.statistics.mesh_seconds},
+            {"geometry", geometry_seconds - geometry.statistics.mesh_seconds},
+            {"upload", slowest(&DeviceReport::upload_seconds)},
+            {"bvh", slowest(&DeviceReport::bvh_seconds)},
+            {"compile", slowest(&DeviceReport::compile_seconds)},
+            {"first_launch", report.first_launch_seconds},
+            {"render", report.render_seconds - report.first_launch_seconds}};
+}
+
+int render(const RenderArguments& arguments, const std::string& command_line)
+{
+    Log& log = standard_log();
+    log.set_verbosity(arguments.verbosity());
+    const std::vector<std::string> outputs = outputs_of(arguments);
+    for (const std::string& path : outputs) check_image_path(path);
+    const bool has_aov = std::any_of(outputs.begin(), outputs.end(), [](auto& p) { return extension_of(p) == ".exr"; });
+    const InterruptGuard guard;
+
+    Stopwatch watch;
+    LoadedScene loaded = load_scene(arguments.scene, arguments.overrides);
+    Scene& scene = loaded.scene;
+    for (const std::string& warning : loaded.warnings) log.warning(warning);
+    apply_arguments(scene, arguments);
+    Film film(scene.film.width, scene.film.height, crop_of(arguments, scene.film), has_aov);
+    const double parse_seconds = watch.restart();
+    const Geometry geometry = make_geometry(scene, {arguments.lenient});
+    for (const std::string& warning : geometry.warnings) log.warning(warning);
+    describe(scene, geometry, log);
+    const double geometry_seconds = watch.restart();
+
+    Renderer renderer(scene, geometry, has_aov, render_options(arguments, log));
+    {
+        Progress progress(log);
+        renderer.render(film, render_limits(scene, arguments, progress, film));
+        const RenderReport& r = renderer.report();
+        progress.finish({1.0, r.samples_per_pixel, r.samples_per_pixel, static_cast<double>(r.rays()), film.relative_error()});
+    }
+
+    const RenderReport& report = renderer.report();
+    Phases phases = phases_of(report, parse_seconds, geometry, geometry_seconds);
+    for (const std::string& warning : report.warnings) log.warning(warning);
+    Stopwatch write_watch;
+    Image image = film.resolve(1.0 / geometry.normalisation.scale);
+    image.metadata = image_metadata(scene, report, phases);
+    write_pictures(arguments, scene, image, log);
+    phases.emplace_back("write", write_watch.seconds());
+    report_accidents(report, log);
+    summarise(report, film.relative_error(), log);
+    renderer.store_in_cache();
+    if (!arguments.report.empty())
+        write_file(arguments.report, report_json(scene, geometry, report, phases, film.relative_error(), command_line));
+    return static_cast<int>(report.interrupted ? ExitCode::interrupted : ExitCode::success);
+}
+} // namespace
+
+void register_render(CLI::App& app, std::function<int()>& action)
+{
+    CLI::App* command = app.add_subcommand("render", "Render a scene into pictures");
+    command->footer(EXAMPLES);
+    const auto arguments = std::make_shared<RenderArguments>();
+    add_render_options(*command, *arguments);
+    command->callback([arguments, &action] {
+        action = [arguments] { return render(*arguments, "etendue render " + arguments->scene); };
+    });
+}
+} // namespace etendue

@@ -1,0 +1,134 @@
+// Options of `etendue render`.
+#include "command/render_arguments.h"
+
+#include "scene/scene_tables.h"
+#include "util/error.h"
+#include "util/suggestion.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace etendue
+{
+namespace
+{
+// Numbers between separators, exactly `count` of them.
+std::vector<int> integers(const std::string& option, const std::string& text, char separator, std::size_t count,
+                          const char* expected)
+{
+    std::vector<int> values;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (values.size() < count) {
+        int value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc()) break;
+        values.push_back(value);
+        at = next;
+        if (values.size() == count || at == end || *at != separator) break;
+        ++at;
+    }
+    if (values.size() != count || at != end)
+        throw UsageError(fmt::format("{} must be {}, is \"{}\".", option, expected, text));
+    return values;
+}
+
+// Index of the variant of a table that an option names.
+std::size_t variant_number(const Table& table, const std::string& option, const std::string& name)
+{
+    const std::vector<std::string> names = table.variant_names();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) throw UsageError(option + ": " + unknown_name(option.substr(2), name, names));
+    return static_cast<std::size_t>(found - names.begin());
+}
+
+void set_accelerator(Scene& scene, std::size_t variant)
+{
+    scene.accelerator.type.reset();
+    if (variant > 0) scene.accelerator.type = static_cast<AcceleratorType>(variant - 1);
+}
+} // namespace
+
+void add_render_options(CLI::App& command, RenderArguments& a)
+{
+    command.add_option("SCENE", a.scene, "Scene file: the native format or the course's, told apart by content")->required();
+    command.add_option("-o,--output", a.outputs,
+                       "File to write; may be given several times. The extension chooses the format:\n"
+                       ".exr float with every channel, .hdr, .png or .jpg tone-mapped to sRGB.\n"
+                       "Default: the scene's name with .png and .exr in the current folder")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command.add_option("--device", a.device,
+                       "Device: an index, platform:device, part of a name, cpu, gpu, all, a comma list,\n"
+                       "or auto (a GPU if there is one, else the CPU with most compute units)")
+        ->type_name("SPEC")
+        ->capture_default_str();
+    command.add_option("--spp", a.samples, "Samples per pixel, instead of the scene's")->check(CLI::PositiveNumber);
+    command.add_option("--time", a.seconds,
+                       "Stop rendering after so many seconds: the next pass is predicted and left out when it\n"
+                       "would not fit. Without --spp the number of samples is not limited")
+        ->check(CLI::PositiveNumber)
+        ->type_name("SECONDS");
+    command.add_option("--seed", a.seed, "Seed of the random numbers, below 2^63, instead of the scene's");
+    command.add_option("--size", a.size, "Size of the film in pixels")->type_name("WxH");
+    command.add_option("--crop", a.crop, "Render and write this rectangle of the film only")->type_name("X,Y,W,H");
+    command.add_option("-D,--define", a.overrides,
+                       "Set a value of the scene before it is read, by dots or JSON pointer, e.g.\n"
+                       "-D film.size=[64,64] or -D /materials/0/albedo=0.5; checked like the scene")
+        ->type_name("path=value")
+        ->allow_extra_args(false);
+    command.add_option("--integrator", a.integrator, "normals, hemisphere, bsdf, light or path, instead of the scene's")
+        ->type_name("NAME");
+    command.add_option("--accelerator", a.accelerator, "lbvh, none or auto, instead of the scene's")->type_name("NAME");
+    command.add_option("--specialize", a.specialize,
+                       "on: kernels without what the scene does not need; off: the general kernel.\n"
+                       "The picture is the same, bit for bit")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->capture_default_str();
+    command.add_option("--report", a.report, "Write everything the render knows about itself as JSON")->type_name("FILE");
+    command.add_option("--threads", a.threads, "Use so many compute units of each device (0: all)")->capture_default_str();
+    command.add_option("--lanes", a.lanes, "Paths that one work-item carries: 1, 4, 8 or 16 (0: as suits the device)")
+        ->capture_default_str();
+    command.add_flag("--lenient", a.lenient, "Drop zero-area and non-finite triangles, counted, instead of failing");
+    command.add_flag("--no-cache", a.no_cache, "Neither read nor write compiled kernels in the cache");
+    command.add_flag("--quiet", a.quiet, "Show warnings and errors only");
+    command.add_flag("-v,--verbose", a.verbose, "Show details");
+}
+
+void apply_arguments(Scene& scene, const RenderArguments& a)
+{
+    if (a.samples) scene.sampler.samples_per_pixel = *a.samples;
+    if (a.seed) {
+        if (*a.seed >> 63) throw UsageError(fmt::format("--seed must be below 2^63, is {}.", *a.seed));
+        scene.sampler.seed = *a.seed;
+    }
+    if (!a.size.empty()) {
+        const auto size = integers("--size", a.size, 'x', 2, "WxH, for example 640x480");
+        if (size[0] < 1 || size[1] < 1 || size[0] > MAX_FILM_SIZE || size[1] > MAX_FILM_SIZE)
+            throw UsageError(fmt::format("--size must be between 1x1 and {0}x{0}, is \"{1}\".", MAX_FILM_SIZE, a.size));
+        scene.film.width = size[0];
+        scene.film.height = size[1];
+    }
+    if (!a.integrator.empty()) scene.integrator.type =
+            static_cast<IntegratorType>(variant_number(integrator_table(), "--integrator", a.integrator));
+    if (!a.accelerator.empty())
+        set_accelerator(scene, variant_number(accelerator_table(), "--accelerator", a.accelerator));
+}
+
+PixelRect crop_of(const RenderArguments& a, const FilmDescription& film)
+{
+    if (a.crop.empty()) return {0, 0, film.width, film.height};
+    const auto crop = integers("--crop", a.crop, ',', 4, "X,Y,W,H, for example 100,50,64,64");
+    return {crop[0], crop[1], crop[2], crop[3]};
+}
+
+std::vector<std::string> outputs_of(const RenderArguments& a)
+{
+    if (!a.outputs.empty()) return a.outputs;
+    const std::string stem = std::filesystem::path(a.scene).stem().string();
+    return {stem + ".png", stem + ".exr"};
+}
+} // namespace etendue
