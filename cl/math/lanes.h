@@ -74,7 +74,11 @@ STATIC Mask not(Mask m)
 /* Gather the sign bits of a mask into one word, lane 0 lowest. */
 STATIC uint lane_bits_4(int4 m)
 {
+#if defined(__AVX512DQ__) && defined(__AVX512VL__)
+    return (uint)(uchar)__builtin_ia32_cvtd2mask128(m);
+#else
     return (((as_uint(convert_char4(m)) & 0x01010101u) * 0x01020408u) >> 24) & 15u;
+#endif
 }
 STATIC uint lane_bits_8(int8 m)
 {

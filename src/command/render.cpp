@@ -21,15 +21,16 @@ namespace etendue
 {
 namespace
 {
-const char* const EXAMPLES = "Examples:\n"
-                             "  etendue render scenes/course-box/simple.json\n"
-                             "  etendue render room.json -o room.exr -o room.png --spp 256 --report report.json\n"
-                             "  etendue render room.json --time 30 --device gpu\n"
-                             "  etendue render room.json --integrator normals -o normals.png\n"
-                             "  etendue render room.json -D integrator.max_depth=1 --crop 100,100,64,64\n"
-                             "\n"
-                             "Ctrl-C finishes the launch in flight and writes the samples there are (exit code 130); a\n"
-                             "second one ends at once. The same seed on the same device gives the same bits.";
+const char* const EXAMPLES =
+    "Examples:\n"
+    "  etendue render scenes/course-box/simple.json\n"
+    "  etendue render room.json -o room.exr -o room.png --spp 256 --report report.json\n"
+    "  etendue render room.json --time 30 --device gpu\n"
+    "  etendue render room.json --integrator normals -o normals.png\n"
+    "  etendue render room.json -D integrator.max_depth=1 --crop 100,100,64,64\n"
+    "\n"
+    "Ctrl-C finishes the launch in flight and writes the samples there are (exit code 130); a\n"
+    "second one ends at once. The same seed on the same device gives the same bits.";
 
 // More samples than a life is long, for renders that only time ends.
 constexpr std::uint64_t UNLIMITED_SAMPLES = std::uint64_t{1} << 40;
@@ -71,7 +72,8 @@ RenderLimits render_limits(const Scene& scene, const RenderArguments& arguments,
     const std::uint64_t shown_total = arguments.seconds ? 0 : limits.samples_per_pixel;
     limits.progress = [&progress, &film, shown_total](const RenderProgress& p) {
         if (!progress.due()) return;
-        progress.show({p.fraction, p.samples_per_pixel, shown_total, static_cast<double>(p.rays), film.relative_error()});
+        progress.show(
+            {p.fraction, p.samples_per_pixel, shown_total, static_cast<double>(p.rays), film.relative_error()});
     };
     return limits;
 }
@@ -91,21 +93,21 @@ void report_accidents(const RenderReport& report, Log& log)
     for (std::size_t kind = 0; kind < HEALTH_KINDS; ++kind) {
         const HealthRecord& record = report.health[kind];
         if (record.count == 0) continue;
-        log.warning(fmt::format("{} samples counted as zero because of {}; the first is pixel {},{} sample {} vertex {}.",
-                                record.count, health_name(kind), record.first->x, record.first->y, record.first->sample,
-                                record.first->vertex));
+        log.warning(fmt::format(
+            "{} samples counted as zero because of {}; the first is pixel {},{} sample {} vertex {}.", record.count,
+            health_name(kind), record.first->x, record.first->y, record.first->sample, record.first->vertex));
     }
 }
 
 void summarise(const RenderReport& report, double relative_error, Log& log)
 {
     for (const DeviceReport& device : report.devices)
-        log.detail(fmt::format("{}: {} samples in {} launches, {} lanes, {} of {} features compiled in", device.info.name,
-                               device.samples, device.units, device.specialization.lanes,
+        log.detail(fmt::format("{}: {} samples in {} launches, {} lanes, {} of {} features compiled in",
+                               device.info.name, device.samples, device.units, device.specialization.lanes,
                                std::popcount(device.specialization.features), static_cast<int>(Feature::COUNT)));
     log.info(fmt::format("{} samples per pixel in {:.2f} s: {:.2f} Mrays/s, relative error {:.4f}, set-up {:.2f} s",
-                         report.samples_per_pixel, report.render_seconds, report.rays_per_second() / 1e6, relative_error,
-                         report.setup_seconds));
+                         report.samples_per_pixel, report.render_seconds, report.rays_per_second() / 1e6,
+                         relative_error, report.setup_seconds));
     if (report.interrupted) log.warning("interrupted: the pictures hold the samples there were.");
 }
 
@@ -153,7 +155,8 @@ int render(const RenderArguments& arguments, const std::string& command_line)
         Progress progress(log);
         renderer.render(film, render_limits(scene, arguments, progress, film));
         const RenderReport& r = renderer.report();
-        progress.finish({1.0, r.samples_per_pixel, r.samples_per_pixel, static_cast<double>(r.rays()), film.relative_error()});
+        progress.finish(
+            {1.0, r.samples_per_pixel, r.samples_per_pixel, static_cast<double>(r.rays()), film.relative_error()});
     }
 
     const RenderReport& report = renderer.report();

@@ -54,42 +54,51 @@ void set_accelerator(Scene& scene, std::size_t variant)
 
 void add_render_options(CLI::App& command, RenderArguments& a)
 {
-    command.add_option("SCENE", a.scene, "Scene file: the native format or the course's, told apart by content")->required();
-    command.add_option("-o,--output", a.outputs,
-                       "File to write; may be given several times. The extension chooses the format:\n"
-                       ".exr float with every channel, .hdr, .png or .jpg tone-mapped to sRGB.\n"
-                       "Default: the scene's name with .png and .exr in the current folder")
+    command.add_option("SCENE", a.scene, "Scene file: the native format or the course's, told apart by content")
+        ->required();
+    command
+        .add_option("-o,--output", a.outputs,
+                    "File to write; may be given several times. The extension chooses the format:\n"
+                    ".exr float with every channel, .hdr, .png or .jpg tone-mapped to sRGB.\n"
+                    "Default: the scene's name with .png and .exr in the current folder")
         ->type_name("FILE")
         ->allow_extra_args(false);
-    command.add_option("--device", a.device,
-                       "Device: an index, platform:device, part of a name, cpu, gpu, all, a comma list,\n"
-                       "or auto (a GPU if there is one, else the CPU with most compute units)")
+    command
+        .add_option("--device", a.device,
+                    "Device: an index, platform:device, part of a name, cpu, gpu, all, a comma list,\n"
+                    "or auto (a GPU if there is one, else the CPU with most compute units)")
         ->type_name("SPEC")
         ->capture_default_str();
     command.add_option("--spp", a.samples, "Samples per pixel, instead of the scene's")->check(CLI::PositiveNumber);
-    command.add_option("--time", a.seconds,
-                       "Stop rendering after so many seconds: the next pass is predicted and left out when it\n"
-                       "would not fit. Without --spp the number of samples is not limited")
+    command
+        .add_option("--time", a.seconds,
+                    "Stop rendering after so many seconds: the next pass is predicted and left out when it\n"
+                    "would not fit. Without --spp the number of samples is not limited")
         ->check(CLI::PositiveNumber)
         ->type_name("SECONDS");
     command.add_option("--seed", a.seed, "Seed of the random numbers, below 2^63, instead of the scene's");
     command.add_option("--size", a.size, "Size of the film in pixels")->type_name("WxH");
     command.add_option("--crop", a.crop, "Render and write this rectangle of the film only")->type_name("X,Y,W,H");
-    command.add_option("-D,--define", a.overrides,
-                       "Set a value of the scene before it is read, by dots or JSON pointer, e.g.\n"
-                       "-D film.size=[64,64] or -D /materials/0/albedo=0.5; checked like the scene")
+    command
+        .add_option("-D,--define", a.overrides,
+                    "Set a value of the scene before it is read, by dots or JSON pointer, e.g.\n"
+                    "-D film.size=[64,64] or -D /materials/0/albedo=0.5; checked like the scene")
         ->type_name("path=value")
         ->allow_extra_args(false);
-    command.add_option("--integrator", a.integrator, "normals, hemisphere, bsdf, light or path, instead of the scene's")
+    command
+        .add_option("--integrator", a.integrator, "normals, hemisphere, bsdf, light or path, instead of the scene's")
         ->type_name("NAME");
     command.add_option("--accelerator", a.accelerator, "lbvh, none or auto, instead of the scene's")->type_name("NAME");
-    command.add_option("--specialize", a.specialize,
-                       "on: kernels without what the scene does not need; off: the general kernel.\n"
-                       "The picture is the same, bit for bit")
+    command
+        .add_option("--specialize", a.specialize,
+                    "on: kernels without what the scene does not need; off: the general kernel.\n"
+                    "The picture is the same, bit for bit")
         ->check(CLI::IsMember({"on", "off"}))
         ->capture_default_str();
-    command.add_option("--report", a.report, "Write everything the render knows about itself as JSON")->type_name("FILE");
-    command.add_option("--threads", a.threads, "Use so many compute units of each device (0: all)")->capture_default_str();
+    command.add_option("--report", a.report, "Write everything the render knows about itself as JSON")
+        ->type_name("FILE");
+    command.add_option("--threads", a.threads, "Use so many compute units of each device (0: all)")
+        ->capture_default_str();
     command.add_option("--lanes", a.lanes, "Paths that one work-item carries: 1, 4, 8 or 16 (0: as suits the device)")
         ->capture_default_str();
     command.add_flag("--lenient", a.lenient, "Drop zero-area and non-finite triangles, counted, instead of failing");
@@ -112,7 +121,8 @@ void apply_arguments(Scene& scene, const RenderArguments& a)
         scene.film.width = size[0];
         scene.film.height = size[1];
     }
-    if (!a.integrator.empty()) scene.integrator.type =
+    if (!a.integrator.empty())
+        scene.integrator.type =
             static_cast<IntegratorType>(variant_number(integrator_table(), "--integrator", a.integrator));
     if (!a.accelerator.empty())
         set_accelerator(scene, variant_number(accelerator_table(), "--accelerator", a.accelerator));

@@ -12,8 +12,9 @@ namespace etendue
 void register_schema(CLI::App& app, std::function<int()>& action)
 {
     CLI::App* command = app.add_subcommand("schema", "Print the JSON Schema of the native scene format");
-    command->footer("The same text is in scenes/scene.schema.json. An editor that knows JSON Schema completes and checks\n"
-                    "scenes with it.");
+    command->footer(
+        "The same text is in scenes/scene.schema.json. An editor that knows JSON Schema completes and checks\n"
+        "scenes with it.");
     const auto reference = std::make_shared<bool>(false);
     command->add_flag("--reference", *reference, "Print the tables of scenes/FORMAT.md instead");
     command->callback([reference, &action] {

@@ -25,7 +25,7 @@ public:
     double bvh_seconds() const { return bvh_seconds_; }
 
     // Launch a kernel whose first arguments are SCENE_ARGUMENTS (cl/shared/scene_view.h), then `rest`.
-    template <typename... Arguments>
+    template<typename... Arguments>
     void launch(Kernel& kernel, std::size_t global_size, std::size_t local_size, const Arguments&... rest) const
     {
         kernel.launch(global_size, local_size, settings_, bvh_.bvh.nodes, bvh_.bvh.leaf_primitives, primitives_,

@@ -21,7 +21,10 @@ LaunchShape complete_shape(LaunchShape shape, const Device& device, const Specia
     return shape;
 }
 
-std::string options_of(const Specialization& s) { return s.build_options(); }
+std::string options_of(const Specialization& s)
+{
+    return s.build_options();
+}
 } // namespace
 
 Megakernel::Megakernel(const Device& device, bool normals, const Specialization& specialization,
@@ -54,7 +57,9 @@ LaunchCounters Megakernel::trace(const DeviceScene& scene, WorkUnit unit, std::v
     const std::uint64_t samples = pixels * unit.sample_count;
     unit.pool_size = pool_size(samples);
     const std::uint64_t items = (samples + unit.pool_size - 1) / unit.pool_size;
-    const auto round_up = [&](std::uint64_t n) { return (n + shape_.local_size - 1) / shape_.local_size * shape_.local_size; };
+    const auto round_up = [&](std::uint64_t n) {
+        return (n + shape_.local_size - 1) / shape_.local_size * shape_.local_size;
+    };
 
     LaunchCounters counters{};
     std::fill(std::begin(counters.health_first), std::end(counters.health_first), NO_INDEX);

@@ -46,9 +46,9 @@ struct DeviceReport {
 struct RenderReport {
     std::vector<DeviceReport> devices;
     AcceleratorType accelerator = ACCELERATOR_LBVH;
-    double setup_seconds = 0.0;  // opening devices, uploading, building, compiling
-    double render_seconds = 0.0; // all passes, first launch included
-    double first_launch_seconds = 0.0; // of the slowest device
+    double setup_seconds = 0.0;          // opening devices, uploading, building, compiling
+    double render_seconds = 0.0;         // all passes, first launch included
+    double first_launch_seconds = 0.0;   // of the slowest device
     std::uint64_t samples_per_pixel = 0; // that every pixel has
     bool interrupted = false;
     std::array<std::uint64_t, COUNT_KINDS> counts{}; // by COUNT_*

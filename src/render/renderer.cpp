@@ -23,9 +23,12 @@ constexpr std::uint32_t FIRST_LAUNCH_SAMPLES = 1u << 14;
 BvhPlace bvh_place(BuildPlace place)
 {
     switch (place) {
-    case BuildPlace::host: return BvhPlace::host;
-    case BuildPlace::device: return BvhPlace::device;
-    case BuildPlace::automatic: break;
+    case BuildPlace::host:
+        return BvhPlace::host;
+    case BuildPlace::device:
+        return BvhPlace::device;
+    case BuildPlace::automatic:
+        break;
     }
     return BvhPlace::automatic;
 }
@@ -36,6 +39,16 @@ std::uint32_t checked_lanes(std::uint32_t lanes, const Device& device)
     if (lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
         throw UsageError(fmt::format("A work-item can carry 1, 4, 8 or 16 lanes, not {}.", lanes));
     return lanes;
+}
+
+// Buffers no larger than a block of the whole film needs, and no smaller than a block of one pixel.
+LaunchShape fitting_shape(LaunchShape shape, const FilmDescription& film)
+{
+    const std::uint64_t pixels = static_cast<std::uint64_t>(film.width) * static_cast<std::uint64_t>(film.height);
+    const auto largest =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(shape.max_samples, pixels * SAMPLES_PER_BLOCK));
+    shape.max_samples = std::max<std::uint32_t>(largest, SAMPLES_PER_BLOCK);
+    return shape;
 }
 
 std::uint64_t samples_of(const WorkUnit& unit)
@@ -62,10 +75,10 @@ struct Renderer::Worker {
         const std::uint32_t depth = device_scene.bvh_statistics().depth;
         const Specialization needed = scene_features(scene, geometry, settings, has_aov, lanes, depth);
         Stopwatch watch;
-        kernel = std::make_unique<Megakernel>(
-            device, scene.integrator.type == IntegratorType::normals,
-            options.specialize ? needed : Specialization::everything(lanes, needed.stack_size), options.cache,
-            options.shape);
+        kernel = std::make_unique<Megakernel>(device, scene.integrator.type == IntegratorType::normals,
+                                              options.specialize ? needed
+                                                                 : Specialization::everything(lanes, needed.stack_size),
+                                              options.cache, fitting_shape(options.shape, scene.film));
         report.compile_seconds = watch.seconds();
         launch_samples = std::min(FIRST_LAUNCH_SAMPLES, kernel->shape().max_samples);
     }

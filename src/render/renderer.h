@@ -36,9 +36,10 @@ struct RenderProgress {
 // When to stop, and whom to tell.
 struct RenderLimits {
     std::uint64_t samples_per_pixel = 1;
-    std::optional<double> seconds;                        // of rendering; the next pass is predicted to fit
-    std::function<bool()> stop = [] { return false; };    // asked before each launch, from any worker's thread
-    std::function<void(const RenderProgress&)> progress = [](const RenderProgress&) {}; // after each launch, one at a time
+    std::optional<double> seconds;                     // of rendering; the next pass is predicted to fit
+    std::function<bool()> stop = [] { return false; }; // asked before each launch, from any worker's thread
+    std::function<void(const RenderProgress&)> progress = [](const RenderProgress&) {
+    }; // after each launch, one at a time
 };
 
 class Renderer

@@ -12,10 +12,16 @@ namespace etendue
 {
 namespace
 {
-Json::Value number(std::uint64_t n) { return Json::Value(static_cast<Json::UInt64>(n)); }
+Json::Value number(std::uint64_t n)
+{
+    return Json::Value(static_cast<Json::UInt64>(n));
+}
 
 // JSON has no infinity: null says "not known".
-Json::Value finite_or_null(double x) { return std::isfinite(x) ? Json::Value(x) : Json::Value(); }
+Json::Value finite_or_null(double x)
+{
+    return std::isfinite(x) ? Json::Value(x) : Json::Value();
+}
 
 Json::Value seconds_json(const Phases& phases)
 {
@@ -189,7 +195,8 @@ std::map<std::string, std::string> image_metadata(const Scene& scene, const Rend
         devices += (devices.empty() ? "" : ", ") + device.info.name;
         drivers += (drivers.empty() ? "" : ", ") + device.info.platform_version + " / " + device.info.driver_version;
     }
-    for (const auto& [name, time] : phases) seconds += fmt::format("{}{} {:.6f}", seconds.empty() ? "" : ", ", name, time);
+    for (const auto& [name, time] : phases)
+        seconds += fmt::format("{}{} {:.6f}", seconds.empty() ? "" : ", ", name, time);
     metadata["etendue:device"] = devices;
     metadata["etendue:driver"] = drivers;
     metadata["etendue:seconds"] = seconds;

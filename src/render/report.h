@@ -19,7 +19,7 @@ using Phases = std::vector<std::pair<std::string, double>>;
 std::string report_json(const Scene& scene, const Geometry& geometry, const RenderReport& report, const Phases& phases,
                         double relative_error, const std::string& command);
 
-// What is written into the picture: scene and its hash, seed, spp, device, versions, seconds per phase; "interrupted" when
-// it was.
+// What is written into the picture: scene and its hash, seed, spp, device, versions, seconds per phase; "interrupted"
+// when it was.
 std::map<std::string, std::string> image_metadata(const Scene& scene, const RenderReport& report, const Phases& phases);
 } // namespace etendue

@@ -33,8 +33,8 @@ std::uint32_t stack_class(std::uint32_t depth)
     throw DeviceError(fmt::format("The tree is {} nodes deep, and a traversal stack holds 128 at most.", depth));
 }
 
-Specialization scene_features(const Scene& scene, const Geometry& geometry, const RenderSettings& settings, bool has_aov,
-                              std::uint32_t lanes, std::uint32_t bvh_depth)
+Specialization scene_features(const Scene& scene, const Geometry& geometry, const RenderSettings& settings,
+                              bool has_aov, std::uint32_t lanes, std::uint32_t bvh_depth)
 {
     Specialization s;
     s.lanes = lanes;

@@ -14,8 +14,8 @@ namespace etendue
 std::uint32_t stack_class(std::uint32_t depth);
 
 // Features of the path kernel for this scene. `settings` are those it will run with.
-Specialization scene_features(const Scene& scene, const Geometry& geometry, const RenderSettings& settings, bool has_aov,
-                              std::uint32_t lanes, std::uint32_t bvh_depth);
+Specialization scene_features(const Scene& scene, const Geometry& geometry, const RenderSettings& settings,
+                              bool has_aov, std::uint32_t lanes, std::uint32_t bvh_depth);
 
 // What is left of a specialization for the kernels that only add up samples: the same binary for every scene.
 Specialization film_features(bool has_aov);
