@@ -245,6 +245,7 @@ void Renderer::tell(const RenderLimits& limits)
 void Renderer::store_in_cache()
 {
     for (const auto& worker : workers_) {
+        if (worker->device.caches_kernels()) continue;
         worker->kernel->store_in_cache();
         if (LbvhBuilder* builder = worker->device_scene.bvh_builder()) builder->store_in_cache();
     }

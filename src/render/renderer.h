@@ -57,7 +57,7 @@ public:
     // Complete after render().
     const RenderReport& report() const { return report_; }
 
-    // Keep compiled kernels for the next run; call it when the picture is written.
+    // Keep compiled kernels for the next run, unless the driver does so itself; call it when the picture is written.
     void store_in_cache();
 
 private:
