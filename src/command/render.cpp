@@ -13,6 +13,10 @@
 #include "util/stopwatch.h"
 
 #include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -35,10 +39,20 @@ const char* const EXAMPLES =
 // More samples than a life is long, for renders that only time ends.
 constexpr std::uint64_t UNLIMITED_SAMPLES = std::uint64_t{1} << 40;
 
-std::string extension_of(const std::string& path)
+// Only EXR files hold albedo, normal and depth.
+bool is_exr(const std::string& path)
 {
-    const auto dot = path.rfind('.');
-    return dot == std::string::npos ? "" : path.substr(dot);
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension == ".exr";
+}
+
+// Throw what writing would throw for want of a folder, before the work is done.
+void check_report_path(const std::string& path)
+{
+    const auto folder = std::filesystem::path(path).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+        throw FileError(path, "the folder " + folder.string() + " does not exist.");
 }
 
 RenderOptions render_options(const RenderArguments& arguments, Log& log)
@@ -62,20 +76,59 @@ void describe(const Scene& scene, const Geometry& geometry, Log& log)
                          scene.film.width, scene.film.height));
 }
 
-RenderLimits render_limits(const Scene& scene, const RenderArguments& arguments, Progress& progress, const Film& film)
+// A film's relative error for a progress line: of a large film it takes long, so it is worked out anew only when that
+// costs no more than a fiftieth of the time.
+class ErrorEstimate
+{
+public:
+    explicit ErrorEstimate(const Film& film) : film_(film) {}
+
+    double operator()()
+    {
+        if (since_.seconds() < 50.0 * cost_) return error_;
+        since_.restart();
+        error_ = film_.relative_error();
+        cost_ = since_.seconds();
+        return error_;
+    }
+
+private:
+    const Film& film_;
+    double error_ = 0.0, cost_ = 0.0;
+    Stopwatch since_;
+};
+
+RenderLimits render_limits(const Scene& scene, const RenderArguments& arguments)
 {
     RenderLimits limits;
     limits.samples_per_pixel = wanted_samples(scene);
-    if (arguments.seconds && !arguments.samples) limits.samples_per_pixel = UNLIMITED_SAMPLES;
+    const bool is_noisy = scene.integrator.type != IntegratorType::normals;
+    if (arguments.seconds && !arguments.samples && is_noisy) limits.samples_per_pixel = UNLIMITED_SAMPLES;
     limits.seconds = arguments.seconds;
     limits.stop = interrupted;
-    const std::uint64_t shown_total = arguments.seconds ? 0 : limits.samples_per_pixel;
-    limits.progress = [&progress, &film, shown_total](const RenderProgress& p) {
-        if (!progress.due()) return;
-        progress.show(
-            {p.fraction, p.samples_per_pixel, shown_total, static_cast<double>(p.rays), film.relative_error()});
-    };
     return limits;
+}
+
+// Render onto the film and show how far it is; returns the film's relative error.
+double render_film(Renderer& renderer, Film& film, RenderLimits limits, Log& log)
+{
+    Progress progress(log);
+    ErrorEstimate error(film);
+    RenderProgress last;
+    const std::uint64_t shown_total = limits.samples_per_pixel < UNLIMITED_SAMPLES ? limits.samples_per_pixel : 0;
+    const auto state = [&](double relative_error) {
+        return ProgressState{last.fraction, last.samples_per_pixel, shown_total, static_cast<double>(last.rays),
+                             relative_error};
+    };
+    limits.progress = [&](const RenderProgress& now) {
+        last = now;
+        if (progress.due()) progress.show(state(error()));
+    };
+    renderer.render(film, limits);
+    if (!renderer.report().interrupted) last.fraction = 1.0;
+    const double relative_error = film.relative_error();
+    progress.finish(state(relative_error));
+    return relative_error;
 }
 
 void write_pictures(const RenderArguments& arguments, const Scene& scene, const Image& image, Log& log)
@@ -105,9 +158,10 @@ void summarise(const RenderReport& report, double relative_error, Log& log)
         log.detail(fmt::format("{}: {} samples in {} launches, {} lanes, {} of {} features compiled in",
                                device.info.name, device.samples, device.units, device.specialization.lanes,
                                std::popcount(device.specialization.features), static_cast<int>(Feature::COUNT)));
-    log.info(fmt::format("{} samples per pixel in {:.2f} s: {:.2f} Mrays/s, relative error {:.4f}, set-up {:.2f} s",
+    log.info(fmt::format("{} samples per pixel in {:.2f} s: {:.2f} Mrays/s, relative error {}, set-up {:.2f} s",
                          report.samples_per_pixel, report.render_seconds, report.rays_per_second() / 1e6,
-                         relative_error, report.setup_seconds));
+                         std::isfinite(relative_error) ? fmt::format("{:.4f}", relative_error) : "unknown",
+                         report.setup_seconds));
     if (report.interrupted) log.warning("interrupted: the pictures hold the samples there were.");
 }
 
@@ -135,7 +189,8 @@ int render(const RenderArguments& arguments, const std::string& command_line)
     log.set_verbosity(arguments.verbosity());
     const std::vector<std::string> outputs = outputs_of(arguments);
     for (const std::string& path : outputs) check_image_path(path);
-    const bool has_aov = std::any_of(outputs.begin(), outputs.end(), [](auto& p) { return extension_of(p) == ".exr"; });
+    if (!arguments.report.empty()) check_report_path(arguments.report);
+    const bool has_aov = std::any_of(outputs.begin(), outputs.end(), is_exr);
     const InterruptGuard guard;
 
     Stopwatch watch;
@@ -151,15 +206,13 @@ int render(const RenderArguments& arguments, const std::string& command_line)
     const double geometry_seconds = watch.restart();
 
     Renderer renderer(scene, geometry, has_aov, render_options(arguments, log));
-    {
-        Progress progress(log);
-        renderer.render(film, render_limits(scene, arguments, progress, film));
-        const RenderReport& r = renderer.report();
-        progress.finish(
-            {1.0, r.samples_per_pixel, r.samples_per_pixel, static_cast<double>(r.rays()), film.relative_error()});
+    const double relative_error = render_film(renderer, film, render_limits(scene, arguments), log);
+    const RenderReport& report = renderer.report();
+    if (film.total_samples() == 0) {
+        log.warning("interrupted before the first sample: nothing is written.");
+        return static_cast<int>(ExitCode::interrupted);
     }
 
-    const RenderReport& report = renderer.report();
     Phases phases = phases_of(report, parse_seconds, geometry, geometry_seconds);
     for (const std::string& warning : report.warnings) log.warning(warning);
     Stopwatch write_watch;
@@ -168,11 +221,24 @@ int render(const RenderArguments& arguments, const std::string& command_line)
     write_pictures(arguments, scene, image, log);
     phases.emplace_back("write", write_watch.seconds());
     report_accidents(report, log);
-    summarise(report, film.relative_error(), log);
+    summarise(report, relative_error, log);
     renderer.store_in_cache();
     if (!arguments.report.empty())
-        write_file(arguments.report, report_json(scene, geometry, report, phases, film.relative_error(), command_line));
+        write_file(arguments.report, report_json(scene, geometry, report, phases, relative_error, command_line));
     return static_cast<int>(report.interrupted ? ExitCode::interrupted : ExitCode::success);
+}
+// The command as it was given, for the report.
+std::string command_line(const CLI::App& command)
+{
+    std::string text = "etendue " + command.get_name();
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->get_name() == "--help") continue;
+        for (const std::string& value : option->results()) {
+            if (!option->get_positional()) text += ' ' + option->get_name();
+            if (option->get_items_expected_max() > 0) text += ' ' + value;
+        }
+    }
+    return text;
 }
 } // namespace
 
@@ -182,8 +248,8 @@ void register_render(CLI::App& app, std::function<int()>& action)
     command->footer(EXAMPLES);
     const auto arguments = std::make_shared<RenderArguments>();
     add_render_options(*command, *arguments);
-    command->callback([arguments, &action] {
-        action = [arguments] { return render(*arguments, "etendue render " + arguments->scene); };
+    command->callback([arguments, command, &action] {
+        action = [arguments, line = command_line(*command)] { return render(*arguments, line); };
     });
 }
 } // namespace etendue

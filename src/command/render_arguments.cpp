@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -15,6 +16,36 @@ namespace etendue
 {
 namespace
 {
+constexpr std::uint64_t MAX_SAMPLES = 1'000'000'000'000'000; // per pixel, as in a scene
+constexpr std::uint64_t MAX_SEED = ~std::uint64_t{0} >> 1;
+
+// Checks that an option is a decimal number within a range.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t largest)
+{
+    const auto check = [=](std::string& text) -> std::string {
+        std::uint64_t value = 0;
+        const char* const end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data(), end, value);
+        if (error != std::errc() || stop != end || value < least || value > largest)
+            return fmt::format("must be a whole number between {} and {}, is \"{}\".", least, largest, text);
+        // Without leading zeros, which would make it octal.
+        text = std::to_string(value);
+        return {};
+    };
+    return CLI::Validator(check, "");
+}
+
+// Checks that an option is a positive number of seconds.
+CLI::Validator positive_seconds()
+{
+    const auto check = [](std::string& text) -> std::string {
+        double value = 0.0;
+        if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0) return {};
+        return fmt::format("must be more than 0 seconds, is \"{}\".", text);
+    };
+    return CLI::Validator(check, "");
+}
+
 // Numbers between separators, exactly `count` of them.
 std::vector<int> integers(const std::string& option, const std::string& text, char separator, std::size_t count,
                           const char* expected)
@@ -69,14 +100,18 @@ void add_render_options(CLI::App& command, RenderArguments& a)
                     "or auto (a GPU if there is one, else the CPU with most compute units)")
         ->type_name("SPEC")
         ->capture_default_str();
-    command.add_option("--spp", a.samples, "Samples per pixel, instead of the scene's")->check(CLI::PositiveNumber);
+    command.add_option("--spp", a.samples, "Samples per pixel, instead of the scene's")
+        ->transform(whole_number(1, MAX_SAMPLES))
+        ->type_name("N");
     command
         .add_option("--time", a.seconds,
                     "Stop rendering after so many seconds: the next pass is predicted and left out when it\n"
                     "would not fit. Without --spp the number of samples is not limited")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_seconds())
         ->type_name("SECONDS");
-    command.add_option("--seed", a.seed, "Seed of the random numbers, below 2^63, instead of the scene's");
+    command.add_option("--seed", a.seed, "Seed of the random numbers, below 2^63, instead of the scene's")
+        ->transform(whole_number(0, MAX_SEED))
+        ->type_name("N");
     command.add_option("--size", a.size, "Size of the film in pixels")->type_name("WxH");
     command.add_option("--crop", a.crop, "Render and write this rectangle of the film only")->type_name("X,Y,W,H");
     command
@@ -98,8 +133,12 @@ void add_render_options(CLI::App& command, RenderArguments& a)
     command.add_option("--report", a.report, "Write everything the render knows about itself as JSON")
         ->type_name("FILE");
     command.add_option("--threads", a.threads, "Use so many compute units of each device (0: all)")
+        ->transform(whole_number(0, NO_INDEX))
+        ->type_name("N")
         ->capture_default_str();
     command.add_option("--lanes", a.lanes, "Paths that one work-item carries: 1, 4, 8 or 16 (0: as suits the device)")
+        ->check(CLI::IsMember({"0", "1", "4", "8", "16"}))
+        ->type_name("N")
         ->capture_default_str();
     command.add_flag("--lenient", a.lenient, "Drop zero-area and non-finite triangles, counted, instead of failing");
     command.add_flag("--no-cache", a.no_cache, "Neither read nor write compiled kernels in the cache");
@@ -110,10 +149,7 @@ void add_render_options(CLI::App& command, RenderArguments& a)
 void apply_arguments(Scene& scene, const RenderArguments& a)
 {
     if (a.samples) scene.sampler.samples_per_pixel = *a.samples;
-    if (a.seed) {
-        if (*a.seed >> 63) throw UsageError(fmt::format("--seed must be below 2^63, is {}.", *a.seed));
-        scene.sampler.seed = *a.seed;
-    }
+    if (a.seed) scene.sampler.seed = *a.seed;
     if (!a.size.empty()) {
         const auto size = integers("--size", a.size, 'x', 2, "WxH, for example 640x480");
         if (size[0] < 1 || size[1] < 1 || size[0] > MAX_FILM_SIZE || size[1] > MAX_FILM_SIZE)

@@ -32,7 +32,7 @@ Normalisation normalise(const Bounds& bounds)
     int exponent = 0;
     if (std::frexp(half, &exponent) == 0.5) --exponent;
     const double scale = std::ldexp(1.0, -exponent);
-    if (!(half > 0.0 && std::isfinite(scale) && scale > 0.0 && is_finite(bounds.centre())))
+    if (!(half > 0.0 && std::isfinite(half) && std::isfinite(scale) && scale > 0.0 && is_finite(bounds.centre())))
         throw SceneError(fmt::format("The geometry has an extent of {}, which cannot be rendered.", 2.0 * half));
     return {bounds.centre(), scale};
 }

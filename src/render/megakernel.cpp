@@ -17,21 +17,18 @@ constexpr std::uint64_t POOLS_PER_COMPUTE_UNIT = 8;
 
 LaunchShape complete_shape(LaunchShape shape, const Device& device, const Specialization& specialization)
 {
-    if (shape.local_size == 0) shape.local_size = device.is_cpu() || specialization.lanes > 1 ? 1 : GPU_LOCAL_SIZE;
+    const auto largest =
+        static_cast<std::uint32_t>(std::min<std::size_t>(device.info().max_work_group_size, GPU_LOCAL_SIZE));
+    if (shape.local_size == 0) shape.local_size = device.is_cpu() || specialization.lanes > 1 ? 1 : largest;
     return shape;
-}
-
-std::string options_of(const Specialization& s)
-{
-    return s.build_options();
 }
 } // namespace
 
 Megakernel::Megakernel(const Device& device, bool normals, const Specialization& specialization,
                        const KernelCache& cache, const LaunchShape& shape)
     : device_(&device), specialization_(specialization), shape_(complete_shape(shape, device, specialization)),
-      path_program_(device, normals ? "normals.cl" : "path_megakernel.cl", options_of(specialization), cache),
-      film_program_(device, "film.cl", options_of(film_features(specialization.has(Feature::AOV))), cache),
+      path_program_(device, normals ? "normals.cl" : "path_megakernel.cl", specialization.build_options(), cache),
+      film_program_(device, "film.cl", film_features(specialization.has(Feature::AOV)).build_options(), cache),
       path_kernel_(path_program_, normals ? "normals" : "path_megakernel"),
       film_kernel_(film_program_, "film_accumulate"), results_(device, "sample results", shape_.max_samples),
       blocks_(device, "pixel sums", shape_.max_samples), counters_(device, "counters", 1)

@@ -19,6 +19,7 @@ namespace
 constexpr double LAUNCH_SECONDS_CPU = 0.1;
 constexpr double LAUNCH_SECONDS_GPU = 0.05;
 constexpr std::uint32_t FIRST_LAUNCH_SAMPLES = 1u << 14;
+constexpr double SHORTEST_LAUNCH_SAMPLES = 1024.0;
 
 BvhPlace bvh_place(BuildPlace place)
 {
@@ -88,8 +89,8 @@ struct Renderer::Worker {
     {
         const double wanted = device.is_cpu() ? LAUNCH_SECONDS_CPU : LAUNCH_SECONDS_GPU;
         const double next = static_cast<double>(samples) * wanted / std::max(seconds, 1e-6);
-        launch_samples = static_cast<std::uint32_t>(std::clamp(next, 1024.0, double(kernel->shape().max_samples)));
-        launch_samples = std::min(launch_samples, kernel->shape().max_samples);
+        launch_samples = static_cast<std::uint32_t>(
+            std::min(std::max(next, SHORTEST_LAUNCH_SAMPLES), double(kernel->shape().max_samples)));
     }
 
     Device device;
@@ -124,8 +125,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::render(Film& film, const RenderLimits& limits)
 {
-    Stopwatch watch;
-    seconds_ = [&] { return watch.seconds(); };
+    watch_.restart();
     const PixelRect crop = film.crop();
     crop_pixels_ = static_cast<std::uint64_t>(crop.width) * static_cast<std::uint64_t>(crop.height);
     std::uint64_t done = 0;
@@ -134,7 +134,7 @@ void Renderer::render(Film& film, const RenderLimits& limits)
         Pass pass = next_pass(done, limits.samples_per_pixel);
         if (limits.seconds && done > 0) {
             // Take as many samples as the last pass says will fit.
-            const double fitting = (*limits.seconds - watch.seconds()) / seconds_per_sample;
+            const double fitting = (*limits.seconds - watch_.seconds()) / seconds_per_sample;
             if (fitting < 1.0) break;
             pass.sample_count = static_cast<std::uint32_t>(std::min<double>(pass.sample_count, fitting));
         }
@@ -147,7 +147,7 @@ void Renderer::render(Film& film, const RenderLimits& limits)
     }
     report_.samples_per_pixel = film.min_samples();
     report_.interrupted = limits.stop();
-    report_.render_seconds = watch.seconds();
+    report_.render_seconds = watch_.seconds();
     for (const auto& worker : workers_) {
         DeviceReport& r = worker->report;
         r.memory = worker->device.memory();
@@ -237,7 +237,8 @@ void Renderer::tell(const RenderLimits& limits)
     progress.samples_per_pixel = samples_done_ / crop_pixels_;
     progress.fraction = static_cast<double>(samples_done_) / static_cast<double>(crop_pixels_) /
                         static_cast<double>(limits.samples_per_pixel);
-    if (limits.seconds) progress.fraction = std::max(progress.fraction, std::min(seconds_() / *limits.seconds, 1.0));
+    if (limits.seconds)
+        progress.fraction = std::max(progress.fraction, std::min(watch_.seconds() / *limits.seconds, 1.0));
     progress.rays = report_.rays();
     limits.progress(progress);
 }

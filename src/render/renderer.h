@@ -8,10 +8,12 @@
 #include "render/render_report.h"
 #include "render/schedule.h"
 #include "scene/scene.h"
+#include "util/stopwatch.h"
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -51,7 +53,7 @@ public:
     ~Renderer();
 
     // Add samples [0, samples_per_pixel) to a film that has none. Returns when done, out of time, or stopped; then the
-    // pixels may have unequal numbers of samples. Throws DeviceError.
+    // pixels may have unequal numbers of samples. Call it once. Throws DeviceError.
     void render(Film& film, const RenderLimits& limits);
 
     // Complete after render().
@@ -71,6 +73,6 @@ private:
     RenderReport report_;
     std::mutex mutex_; // guards report_ and progress while workers run
     std::uint64_t samples_done_ = 0, crop_pixels_ = 0;
-    std::function<double()> seconds_;
+    Stopwatch watch_; // since render() began
 };
 } // namespace etendue

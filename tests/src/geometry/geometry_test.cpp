@@ -237,7 +237,7 @@ TEST_CASE("a lenient render equals that of the scene without the triangles that 
     const Geometry clean = make_geometry(scene_of(triangles));
     // Without area, far away; not finite; without area only after rounding.
     triangles.positions.insert(triangles.positions.end(),
-                               {{50, 0, 0}, {100, 0, 0}, {NAN, 0, 0}, {3, 3, 1e-30}, {3, 3, 0}});
+                               {{50, 0, 0}, {100, 0, 0}, {NAN, 0, 0}, {3, 3, 1 + 1e-12}, {3, 3, 1}});
     triangles.normals.resize(8, Vec3(0, 0, 1));
     triangles.indices = {{0, 3, 4}, {0, 1, 5}, {0, 1, 2}, {0, 6, 7}};
     const Geometry lenient = make_geometry(scene_of(triangles), {true});
@@ -294,8 +294,10 @@ TEST_CASE("scenes that cannot be normalised or hold nothing are refused")
     CHECK_THROWS_WITH(make_geometry(empty),
                       "s.json: the scene has no geometry and no environment: there is nothing to render.");
     CHECK_THROWS_AS(make_geometry(empty), SceneError);
-    CHECK_THROWS_WITH(make_geometry(scene_of(BoxShape{Vec3(1.7e308)}, placed(1.0, Vec3(1e308)))),
-                      Catch::Contains("which cannot be rendered."));
+    InlineTriangles huge = one_triangle({});
+    huge.positions[1].x = 1.5e308;
+    huge.positions[2].x = -1.5e308;
+    CHECK_THROWS_WITH(make_geometry(scene_of(huge)), Catch::Contains("which cannot be rendered."));
     CHECK_THROWS_WITH(make_geometry(scene_of(BoxShape{Vec3(1e300)}, placed(1e10, Vec3(0)))),
                       Catch::Contains("triangle 0 of shape \"s\" has a corner that is not finite"));
     Scene scene = scene_of(BoxShape{});

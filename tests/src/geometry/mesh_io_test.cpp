@@ -158,7 +158,7 @@ TEST_CASE("damaged mesh files are read or refused, but never crash")
                 damaged.insert(at, damaged.substr(random() % damaged.size(), random() % 16));
                 break;
             }
-            if (damaged.empty()) damaged = "x";
+            if (damaged.empty()) damaged.push_back('x');
         }
         try {
             const Mesh mesh = parse_mesh(damaged, name, round % 8 < 4);

@@ -50,7 +50,7 @@ TEST_CASE("a PLY text may have blank lines, faces first, polygons and properties
 {
     const Mesh mesh =
         read("ply\nformat ascii 1.0\nelement face 2\nproperty uchar red\nproperty list uchar float "
-             "weights\nproperty list int uint vertex_index\nelement empty 1000000000000\nelement edge "
+             "weights\nproperty list int uint vertex_index\nelement empty 1000000000\nelement edge "
              "1\nproperty int vertex1\nproperty int vertex2\nelement vertex 4\nproperty float z\nproperty "
              "double x\nproperty list uchar int others\nproperty float y\nend_header\n"
              "255 2 0.5 0.5 4 0 1 2 3\n\n0 0 3 2 1 0\n0 1\n\n 7 0 0 0\n7 1 2 5 5 0\n7 1 0 1\r\n7 0 0 1\n\n");
