@@ -160,7 +160,7 @@ void Renderer::render(Film& film, const RenderLimits& limits)
 
 void Renderer::run_pass(Film& film, const Pass& pass, const RenderLimits& limits)
 {
-    Schedule schedule(film.crop(), pass);
+    Schedule schedule(film.crop(), pass, workers_.size());
     std::exception_ptr failure;
     const auto guarded = [&](Worker& worker) {
         try {

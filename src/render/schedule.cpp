@@ -13,12 +13,19 @@ Pass next_pass(std::uint64_t done, std::uint64_t total)
     return {done, static_cast<std::uint32_t>(std::min({doubled, to_border, total - done}))};
 }
 
+Schedule::Schedule(const PixelRect& crop, const Pass& pass, std::size_t devices)
+    : crop_(crop), pass_(pass),
+      pixels_(static_cast<std::uint64_t>(crop.width) * static_cast<std::uint64_t>(crop.height)),
+      largest_unit_((pixels_ + devices - 1) / devices)
+{
+}
+
 std::optional<WorkUnit> Schedule::next(std::uint32_t max_samples)
 {
     const std::lock_guard lock(mutex_);
     const auto width = static_cast<std::uint64_t>(crop_.width), height = static_cast<std::uint64_t>(crop_.height);
-    if (next_pixel_ >= width * height) return {};
-    const std::uint64_t pixels = std::max<std::uint64_t>(max_samples / pass_.sample_count, 1);
+    if (next_pixel_ >= pixels_) return {};
+    const std::uint64_t pixels = std::clamp<std::uint64_t>(max_samples / pass_.sample_count, 1, largest_unit_);
     const std::uint64_t column = next_pixel_ % width, row = next_pixel_ / width;
     WorkUnit unit{};
     if (column == 0 && pixels >= width) {
@@ -40,6 +47,6 @@ std::optional<WorkUnit> Schedule::next(std::uint32_t max_samples)
 void Schedule::cancel()
 {
     const std::lock_guard lock(mutex_);
-    next_pixel_ = static_cast<std::uint64_t>(crop_.width) * static_cast<std::uint64_t>(crop_.height);
+    next_pixel_ = pixels_;
 }
 } // namespace etendue

@@ -4,6 +4,7 @@
 #include "math/shared.h"
 #include "render/film.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -24,7 +25,8 @@ Pass next_pass(std::uint64_t done, std::uint64_t total);
 class Schedule
 {
 public:
-    Schedule(const PixelRect& crop, const Pass& pass) : crop_(crop), pass_(pass) {}
+    // So many devices share the pass: there is a unit for each where there are pixels enough.
+    Schedule(const PixelRect& crop, const Pass& pass, std::size_t devices = 1);
 
     // Whole rows, or a part of one, of at most max_samples samples (of one pixel at least); nothing when the pass is
     // handed out. pool_size is left 0.
@@ -37,6 +39,7 @@ private:
     std::mutex mutex_;
     PixelRect crop_;
     Pass pass_;
-    std::uint64_t next_pixel_ = 0; // row by row within the crop
+    std::uint64_t pixels_, largest_unit_; // of the crop, and of a unit
+    std::uint64_t next_pixel_ = 0;        // row by row within the crop
 };
 } // namespace etendue

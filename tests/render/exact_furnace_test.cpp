@@ -1,6 +1,6 @@
 // Furnaces: scenes in which every path, or every mean, is known.
 #include "support/device_evaluate.h"
-#include "support/render_picture.h"
+#include "support/render_json.h"
 
 #include <catch2/catch.hpp>
 
@@ -35,7 +35,7 @@ double furnace_radiance(double albedo, int depth)
     return a == 1.0 ? depth + 1.0 : -std::expm1((depth + 1.0) * std::log(a)) / (1.0 - a);
 }
 
-void check_healthy(const Picture& picture)
+void check_healthy(const JsonPicture& picture)
 {
     CHECK(picture.report.accidents() == 0);
     CHECK(picture.report.rays() > 0);
@@ -48,7 +48,7 @@ TEST_CASE("every path of a furnace gathers the geometric series, to the rounding
         for (const double albedo : {0.5, 0.8, 0.99, 0.9999})
             for (const int depth : {0, 1, 2, 8, 64, 1000}) {
                 const int size = depth <= 8 ? 32 : 6;
-                const Picture picture = render_picture(
+                const JsonPicture picture = render_json(
                     device, furnace(albedo, std::to_string(depth), "\"off\"", "bsdf", size, depth <= 8 ? 8 : 2));
                 const double expected = furnace_radiance(albedo, depth);
                 const double bound = (2.0 * depth + 4.0) * UNIT_ROUNDOFF_FLOAT * expected;
@@ -65,8 +65,8 @@ TEST_CASE("a furnace of albedo 1 gathers exactly one more than its depth", "[ren
 {
     for (const Device& device : test_devices())
         for (const int depth : {0, 1, 7, 500}) {
-            const Picture picture =
-                render_picture(device, furnace(1.0, std::to_string(depth), "\"off\"", "bsdf", 6, 2));
+            const JsonPicture picture =
+                render_json(device, furnace(1.0, std::to_string(depth), "\"off\"", "bsdf", 6, 2));
             for (const PixelEstimate& p : picture.pixels) REQUIRE(p.mean == Vec3(depth + 1.0));
             check_healthy(picture);
         }
@@ -91,8 +91,8 @@ TEST_CASE("roulette and light sampling leave the mean of a furnace alone", "[ren
     };
     for (const Device& device : test_devices())
         for (const Case& c : cases) {
-            const Picture picture =
-                render_picture(device, furnace(c.albedo, "\"unlimited\"", c.roulette, c.integrator, 16, c.spp));
+            const JsonPicture picture =
+                render_json(device, furnace(c.albedo, "\"unlimited\"", c.roulette, c.integrator, 16, c.spp));
             const double expected = 1.0 / (1.0 - static_cast<float>(c.albedo));
             const Verdict v = judge(picture.mean().y, picture.standard_error().y, expected, std::size(cases), c.wanted);
             INFO(c.albedo << " " << c.roulette << " " << c.integrator << ": " << v.text);
@@ -106,9 +106,9 @@ TEST_CASE("constant roulette has the variance of its closed form", "[render]")
 {
     // Var = (1 + a) / ((1 - a) (1 - a^2 / q)) - 1 / (1 - a)^2; here .363636, the fourth moment exists as a^4 < q^3.
     for (const Device& device : test_devices()) {
-        const Picture picture = render_picture(
-            device,
-            furnace(0.5, "\"unlimited\"", R"({"type": "constant", "probability": 0.8, "start": 1})", "bsdf", 32, 1024));
+        const JsonPicture picture =
+            render_json(device, furnace(0.5, "\"unlimited\"", R"({"type": "constant", "probability": 0.8, "start": 1})",
+                                        "bsdf", 32, 1024));
         double variance = 0.0;
         for (const PixelEstimate& p : picture.pixels)
             variance += p.standard_error.y * p.standard_error.y * static_cast<double>(p.samples);
@@ -121,7 +121,7 @@ TEST_CASE("constant roulette has the variance of its closed form", "[render]")
 TEST_CASE("a convex body under a uniform sky shows its albedo, and the sky itself", "[render]")
 {
     for (const Device& device : test_devices()) {
-        const Picture picture = render_picture(device, R"({
+        const JsonPicture picture = render_json(device, R"({
             "camera": {"position": [0, 0, 5], "look_at": [0, 0, 0], "vertical_fov": 40},
             "film": {"size": [24, 24]}, "integrator": {"type": "bsdf", "max_depth": 8, "roulette": "off"},
             "sampler": {"spp": 4}, "materials": [{"name": "m", "type": "diffuse", "albedo": 0.7}],
@@ -150,14 +150,14 @@ TEST_CASE("a furnace inside a sphere is exact at every radius, wherever it lies"
         for (const double radius : {1e-4, 1.0, 1e4})
             for (const double offset : {0.0, 131072.0}) {
                 const double x = offset * radius;
-                const Picture picture = render_picture(device, fmt::format(R"({{
+                const JsonPicture picture = render_json(device, fmt::format(R"({{
                     "camera": {{"position": [{0:.17g}, 0, 0], "look_at": [{0:.17g}, 0, {1}], "vertical_fov": 90}},
                     "film": {{"size": [12, 12]}}, "sampler": {{"spp": 8}},
                     "integrator": {{"type": "bsdf", "max_depth": 16, "roulette": "off"}},
                     "materials": [{{"name": "m", "type": "diffuse", "albedo": 0.9}}],
                     "shapes": [{{"type": "sphere", "radius": {2:.17g}, "material": "m", "flip_normals": true,
                                  "emission": {{"radiance": 1}}, "transform": {{"translate": [{0:.17g}, 0, 0]}}}}]}})",
-                                                                           x, -radius, radius));
+                                                                            x, -radius, radius));
                 const double expected = furnace_radiance(0.9, 16);
                 INFO("radius " << radius << " offset " << x);
                 for (const PixelEstimate& p : picture.pixels)
@@ -170,13 +170,13 @@ TEST_CASE("glass under a uniform sky is invisible", "[render]")
 {
     for (const Device& device : test_devices())
         for (const double ior : {1.0, 1.0000001, 1.33, 1.5, 2.4, 1.0 / 1.5}) {
-            const Picture picture = render_picture(device, fmt::format(R"({{
+            const JsonPicture picture = render_json(device, fmt::format(R"({{
                 "camera": {{"position": [0.1, 0.2, 5], "look_at": [0, 0, 0], "vertical_fov": 30}},
                 "film": {{"size": [16, 16]}}, "sampler": {{"spp": 16}},
                 "integrator": {{"type": "path", "max_depth": 2000, "roulette": "off"}},
                 "materials": [{{"name": "g", "type": "dielectric", "ior": {:.17g}}}],
                 "shapes": [{{"type": "sphere", "radius": 1, "material": "g"}}], "environment": {{"radiance": 1}}}})",
-                                                                       ior));
+                                                                        ior));
             INFO("ior " << ior);
             // Light inside may need many reflections to leave; each crossing rounds the weight a little.
             for (const PixelEstimate& p : picture.pixels)

@@ -2,7 +2,7 @@
 // behind and lights very near.
 #include "support/device_evaluate.h"
 #include "support/form_factors.h"
-#include "support/render_picture.h"
+#include "support/render_json.h"
 
 #include <catch2/catch.hpp>
 
@@ -47,7 +47,7 @@ double rectangle_factor(double x0, double x1, double z0, double z1, double heigh
                                {{x0, height, z0}, {x1, height, z0}, {x1, height, z1}, {x0, height, z1}});
 }
 
-void check_mean(const Picture& picture, double expected, std::size_t tests, double wanted, const std::string& what)
+void check_mean(const JsonPicture& picture, double expected, std::size_t tests, double wanted, const std::string& what)
 {
     const Verdict v = judge(picture.mean().x, picture.standard_error().x, expected, tests, wanted);
     INFO(what << ": " << v.text);
@@ -64,9 +64,8 @@ TEST_CASE("four estimators agree with Lambert on a rectangle", "[render]")
         {"hemisphere", 24576}, {"bsdf", 16384}, {"light", 1024}, {"path", 1024}};
     for (const Device& device : test_devices())
         for (const auto& [integrator, spp] : estimators)
-            check_mean(
-                render_picture(device, floor_point(integrator, spp, ceiling_light(-0.3, 0.9, -0.5, 0.4, 0.8, 5.0))),
-                expected, 4, 0.005, integrator);
+            check_mean(render_json(device, floor_point(integrator, spp, ceiling_light(-0.3, 0.9, -0.5, 0.4, 0.8, 5.0))),
+                       expected, 4, 0.005, integrator);
 }
 
 TEST_CASE("disk and sphere lights agree with their closed forms", "[render]")
@@ -81,8 +80,8 @@ TEST_CASE("disk and sphere lights agree with their closed forms", "[render]")
     for (const Device& device : test_devices())
         for (const char* integrator : {"bsdf", "light", "path"}) {
             const int spp = std::string(integrator) == "bsdf" ? 16384 : 1024;
-            check_mean(render_picture(device, floor_point(integrator, spp, disk)), from_disk, 6, 0.01, integrator);
-            check_mean(render_picture(device, floor_point(integrator, spp, sphere)), from_sphere, 6, 0.01, integrator);
+            check_mean(render_json(device, floor_point(integrator, spp, disk)), from_disk, 6, 0.01, integrator);
+            check_mean(render_json(device, floor_point(integrator, spp, sphere)), from_sphere, 6, 0.01, integrator);
         }
 }
 
@@ -94,7 +93,7 @@ TEST_CASE("two lights of unequal area and radiance add up", "[render]")
                                                           300.0 * rectangle_factor(0.5, 0.6, 0.0, 0.1, 0.7));
     for (const Device& device : test_devices())
         for (const char* integrator : {"light", "path"})
-            check_mean(render_picture(device, floor_point(integrator, 4096, lights)), expected, 2, 0.005, integrator);
+            check_mean(render_json(device, floor_point(integrator, 4096, lights)), expected, 2, 0.005, integrator);
 }
 
 TEST_CASE("a light gives the same from each of the four quadrants", "[render]")
@@ -107,8 +106,8 @@ TEST_CASE("a light gives the same from each of the four quadrants", "[render]")
                 const double expected = static_cast<float>(ALBEDO) * 2.0 * rectangle_factor(x0, x1, z0, z1, 0.9);
                 for (const char* integrator : {"bsdf", "path"})
                     check_mean(
-                        render_picture(device, floor_point(integrator, std::string(integrator) == "bsdf" ? 16384 : 1024,
-                                                           ceiling_light(x0, x1, z0, z1, 0.9, 2.0))),
+                        render_json(device, floor_point(integrator, std::string(integrator) == "bsdf" ? 16384 : 1024,
+                                                        ceiling_light(x0, x1, z0, z1, 0.9, 2.0))),
                         expected, 8, 0.01, integrator);
             }
 }
@@ -123,8 +122,8 @@ TEST_CASE("an occluder close to a light hides what is behind it and nothing else
                                                   0.8 - gap);
             const double expected = static_cast<float>(ALBEDO) * 3.0 * rectangle_factor(-0.5, 0.0, -0.4, 0.4, 0.8);
             for (const char* integrator : {"light", "path"})
-                check_mean(render_picture(device, floor_point(integrator, 4096,
-                                                              ceiling_light(-0.5, 0.5, -0.4, 0.4, 0.8, 3.0), plate)),
+                check_mean(render_json(device, floor_point(integrator, 4096,
+                                                           ceiling_light(-0.5, 0.5, -0.4, 0.4, 0.8, 3.0), plate)),
                            expected, 4, 0.01, fmt::format("{} gap {}", integrator, gap));
         }
 }
@@ -140,9 +139,9 @@ TEST_CASE("a light seen from behind, below the horizon or behind a ceiling gives
     for (const Device& device : test_devices())
         for (const char* integrator : {"hemisphere", "bsdf", "light", "path"}) {
             INFO(integrator);
-            CHECK(render_picture(device, floor_point(integrator, 256, behind)).mean() == Vec3(0));
-            CHECK(render_picture(device, floor_point(integrator, 256, below)).mean() == Vec3(0));
-            CHECK(render_picture(device, floor_point(integrator, 256, above, ceiling, 0.3)).mean() == Vec3(0));
+            CHECK(render_json(device, floor_point(integrator, 256, behind)).mean() == Vec3(0));
+            CHECK(render_json(device, floor_point(integrator, 256, below)).mean() == Vec3(0));
+            CHECK(render_json(device, floor_point(integrator, 256, above, ceiling, 0.3)).mean() == Vec3(0));
         }
 }
 
@@ -153,11 +152,11 @@ TEST_CASE("a very near light is bounded with multiple importance sampling and la
         for (const double e : {1.0, 0.1, 0.01, 1e-3}) {
             const std::string light = ceiling_light(-0.5, 0.5, -0.5, 0.5, e, 1.0);
             const double expected = albedo * rectangle_factor(-0.5, 0.5, -0.5, 0.5, e);
-            const Picture mis = render_picture(device, floor_point("path", 4096, light, "", e / 2));
+            const JsonPicture mis = render_json(device, floor_point("path", 4096, light, "", e / 2));
             check_mean(mis, expected, 4, 0.01, fmt::format("distance {}", e));
             // Light sampling alone: relative variance A / (3 pi e^2), within what 64 x 16384 samples can tell of it.
             if (e != 0.1) continue;
-            const Picture noisy = render_picture(device, floor_point("light", 16384, light, "", e / 2));
+            const JsonPicture noisy = render_json(device, floor_point("light", 16384, light, "", e / 2));
             double variance = 0.0;
             for (const PixelEstimate& p : noisy.pixels)
                 variance += p.standard_error.x * p.standard_error.x * static_cast<double>(p.samples) / 64.0;
@@ -168,16 +167,16 @@ TEST_CASE("a very near light is bounded with multiple importance sampling and la
 TEST_CASE("multiple importance sampling keeps Veach's bound on its variance", "[render]")
 {
     const std::string light = ceiling_light(-0.6, 0.6, -0.5, 0.7, 0.5, 2.0);
-    const auto variance = [](const Picture& picture) {
+    const auto variance = [](const JsonPicture& picture) {
         double sum = 0.0;
         for (const PixelEstimate& p : picture.pixels)
             sum += p.standard_error.x * p.standard_error.x * static_cast<double>(p.samples);
         return sum / static_cast<double>(picture.pixels.size());
     };
     for (const Device& device : test_devices()) {
-        const Picture bsdf = render_picture(device, floor_point("bsdf", 4096, light));
-        const Picture lights = render_picture(device, floor_point("light", 4096, light));
-        const Picture mis = render_picture(device, floor_point("path", 4096, light));
+        const JsonPicture bsdf = render_json(device, floor_point("bsdf", 4096, light));
+        const JsonPicture lights = render_json(device, floor_point("light", 4096, light));
+        const JsonPicture mis = render_json(device, floor_point("path", 4096, light));
         const double mu = static_cast<float>(ALBEDO) * 2.0 * rectangle_factor(-0.6, 0.6, -0.5, 0.7, 0.5);
         INFO(variance(bsdf) << " " << variance(lights) << " " << variance(mis) << " mu " << mu);
         CHECK(variance(mis) <= std::min(variance(bsdf), variance(lights)) + mu * mu / 2.0);

@@ -123,6 +123,15 @@ void look_at_point(Scene& scene, const Vec3& from, const Vec3& at, int width, in
     look(scene, from, at, 1e-7, width, height);
 }
 
+Scene floor_seen_at_origin(IntegratorType integrator, double size, const Vec3& camera, std::uint64_t samples_per_pixel)
+{
+    Scene scene = empty_scene(integrator, 4);
+    add_shape(scene, RectangleShape{Vec2(size)}, add_diffuse(scene, FLOOR_ALBEDO), facing_up());
+    look_at_point(scene, camera, Vec3(0.0), 128, 128);
+    scene.sampler.samples_per_pixel = samples_per_pixel;
+    return scene;
+}
+
 InlineTriangles octasphere(int n)
 {
     InlineTriangles mesh;

@@ -56,6 +56,11 @@ void look(Scene& scene, const Vec3& from, const Vec3& at, double vertical_fov, i
 // A camera whose every pixel is the same ray: each sample of the picture is one of the same random variable.
 void look_at_point(Scene& scene, const Vec3& from, const Vec3& at, int width, int height);
 
+// A square floor in the plane y = 0 around the origin, of albedo FLOOR_ALBEDO, whose every sample is the light that the
+// origin sends to the camera; 128 x 128 pixels. Lights are still to come.
+inline const Vec3 FLOOR_ALBEDO{0.6, 0.4, 0.2};
+Scene floor_seen_at_origin(IntegratorType integrator, double size, const Vec3& camera, std::uint64_t samples_per_pixel);
+
 // A polyhedron of 8 n^2 triangles inscribed in the unit sphere, normals outward.
 InlineTriangles octasphere(int n);
 } // namespace etendue

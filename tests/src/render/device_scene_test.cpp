@@ -97,7 +97,8 @@ TEST_CASE("only the buffers that a scene needs exist, and they go with it", "[re
     for (const Device& shared : test_devices()) {
         const Device device(shared.info());
         {
-            const Prepared scene = prepare(ACCELERATOR_BRUTE_FORCE, {"lights=[]", "shapes.0.normals=[[0,0,1],[0,0,1],[0,0,1]]"});
+            const Prepared scene =
+                prepare(ACCELERATOR_BRUTE_FORCE, {"lights=[]", "shapes.0.normals=[[0,0,1],[0,0,1],[0,0,1]]"});
             DeviceScene device_scene(device, scene.geometry, scene.settings, BvhPlace::host, KernelCache::none());
             CHECK(buffer_names(device) ==
                   std::set<std::string>{"settings", "primitives", "surfaces", "materials", "material parameters"});
@@ -125,7 +126,8 @@ TEST_CASE("a scene larger than the device's buffers or memory is refused with th
     // A box is 12 triangles: more bytes than the settings, which are uploaded before.
     const Prepared scene =
         prepare(ACCELERATOR_BRUTE_FORCE, {R"(shapes=[{"type":"box","material":"grey"}])", "lights=[]"});
-    const std::string needed = std::to_string(12 * sizeof(Primitive)), settings = std::to_string(sizeof(RenderSettings));
+    const std::string needed = std::to_string(12 * sizeof(Primitive)),
+                      settings = std::to_string(sizeof(RenderSettings));
     const auto upload_to = [&](const Device& device) {
         DeviceScene(device, scene.geometry, scene.settings, BvhPlace::host, KernelCache::none());
     };

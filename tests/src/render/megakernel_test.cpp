@@ -30,13 +30,13 @@ struct Launch {
 
 // A device with the scene, its geometry changed by `change`, and its kernels.
 struct Bench {
-    Bench(const Device& d, bool aov, const LaunchShape& shape = {}, void (*change)(Geometry&) = [](Geometry&) {})
+    Bench(
+        const Device& d, bool aov, const LaunchShape& shape = {}, void (*change)(Geometry&) = [](Geometry&) {})
         : device(d), scene(parse_scene(SCENE, "launch.json").scene), geometry(make_geometry(scene)), has_aov(aov)
     {
         change(geometry);
         settings = make_render_settings(scene, geometry, ACCELERATOR_BRUTE_FORCE);
-        device_scene =
-            std::make_unique<DeviceScene>(device, geometry, settings, BvhPlace::host, KernelCache::none());
+        device_scene = std::make_unique<DeviceScene>(device, geometry, settings, BvhPlace::host, KernelCache::none());
         const Specialization s = scene_features(scene, geometry, settings, has_aov, device.preferred_lanes(), 0);
         kernel = std::make_unique<Megakernel>(device, false, s, KernelCache::none(), shape);
     }

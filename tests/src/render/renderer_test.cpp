@@ -1,6 +1,6 @@
 // Passes over several devices: limits, progress, stopping, failures and the report.
-#include "render/renderer.h"
 #include "render/render_settings.h"
+#include "render/renderer.h"
 #include "scene/scene_loader.h"
 #include "support/device_evaluate.h"
 #include "util/error.h"
@@ -29,8 +29,8 @@ const char* const SCENE = R"({
 struct Bench {
     explicit Bench(const std::vector<std::string>& overrides = {}, std::optional<PixelRect> crop = {})
         : scene(parse_scene(SCENE, "renderer.json", overrides).scene), geometry(make_geometry(scene)),
-          film(scene.film.width, scene.film.height,
-               crop.value_or(PixelRect{0, 0, scene.film.width, scene.film.height}), false)
+          film(scene.film.width, scene.film.height, crop.value_or(PixelRect{0, 0, scene.film.width, scene.film.height}),
+               false)
     {
         options.devices = {test_devices().front().info()};
         options.shape.max_samples = 200;

@@ -1,6 +1,6 @@
 // Each feature is compiled in exactly when a scene needs it.
-#include "render/scene_features.h"
 #include "render/render_settings.h"
+#include "render/scene_features.h"
 #include "scene/scene_loader.h"
 #include "util/error.h"
 

@@ -37,7 +37,7 @@ bool all_once(const std::vector<int>& count)
     return std::all_of(count.begin(), count.end(), [](int n) { return n == 1; });
 }
 
-const PixelRect CROPS[] = {{0, 0, 1, 1},    {5, 3, 1, 1},    {0, 0, 100, 1}, {7, 2, 1, 100},
+const PixelRect CROPS[] = {{0, 0, 1, 1},    {5, 3, 1, 1},    {0, 0, 100, 1},      {7, 2, 1, 100},
                            {3, 11, 13, 17}, {0, 0, 640, 20}, {65535, 65535, 1, 1}};
 } // namespace
 
@@ -89,6 +89,19 @@ TEST_CASE("several threads share a pass without a gap or a double")
     std::vector<WorkUnit> all;
     for (const auto& units : taken) all.insert(all.end(), units.begin(), units.end());
     CHECK(all_once(coverage(crop, all, pass)));
+}
+
+TEST_CASE("a pass has a unit for each device, even if one could do it all")
+{
+    for (const PixelRect& crop : CROPS)
+        for (const std::size_t devices : {1u, 2u, 3u, 7u}) {
+            const Pass pass{0, 1};
+            Schedule schedule(crop, pass, devices);
+            std::vector<WorkUnit> units;
+            while (const auto unit = schedule.next(~0u)) units.push_back(*unit);
+            CHECK(all_once(coverage(crop, units, pass)));
+            CHECK(units.size() >= std::min<std::size_t>(devices, static_cast<std::size_t>(crop.width * crop.height)));
+        }
 }
 
 TEST_CASE("a cancelled pass hands out nothing more")

@@ -12,7 +12,7 @@
 
 namespace etendue
 {
-struct Picture {
+struct JsonPicture {
     std::vector<PixelEstimate> pixels; // row by row
     int width = 0;
     RenderReport report;
@@ -23,15 +23,15 @@ struct Picture {
     std::uint64_t samples() const; // of all pixels together
 };
 
-struct PictureOptions {
+struct JsonPictureOptions {
     bool specialize = false; // the general kernel serves every scene, so that a test compiles once
     std::uint32_t lanes = 0;
 };
 
 // Render a scene in the native format. Overrides as for -D.
-Picture render_picture(const Device& device, const std::string& json, const std::vector<std::string>& overrides = {},
-                       PictureOptions options = {});
-Picture render_picture(const Device& device, const Scene& scene, PictureOptions options = {});
+JsonPicture render_json(const Device& device, const std::string& json, const std::vector<std::string>& overrides = {},
+                        JsonPictureOptions options = {});
+JsonPicture render_json(const Device& device, const Scene& scene, JsonPictureOptions options = {});
 
 // A test of a mean against its expected value, one of `tests` in the same run.
 struct Verdict {

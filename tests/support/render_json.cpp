@@ -1,5 +1,5 @@
 // Rendering for tests.
-#include "support/render_picture.h"
+#include "support/render_json.h"
 
 #include "geometry/geometry.h"
 #include "render/render_settings.h"
@@ -13,28 +13,28 @@
 
 namespace etendue
 {
-Vec3 Picture::mean() const
+Vec3 JsonPicture::mean() const
 {
     Vec3 sum(0.0);
     for (const PixelEstimate& p : pixels) sum += p.mean;
     return sum / static_cast<double>(pixels.size());
 }
 
-Vec3 Picture::standard_error() const
+Vec3 JsonPicture::standard_error() const
 {
     Vec3 sum(0.0);
     for (const PixelEstimate& p : pixels) sum += p.standard_error * p.standard_error;
     return glm::sqrt(sum) / static_cast<double>(pixels.size());
 }
 
-std::uint64_t Picture::samples() const
+std::uint64_t JsonPicture::samples() const
 {
     std::uint64_t sum = 0;
     for (const PixelEstimate& p : pixels) sum += p.samples;
     return sum;
 }
 
-Picture render_picture(const Device& device, const Scene& scene, PictureOptions options)
+JsonPicture render_json(const Device& device, const Scene& scene, JsonPictureOptions options)
 {
     const Geometry geometry = make_geometry(scene);
     RenderOptions render_options;
@@ -46,7 +46,7 @@ Picture render_picture(const Device& device, const Scene& scene, PictureOptions 
     RenderLimits limits;
     limits.samples_per_pixel = wanted_samples(scene);
     renderer.render(film, limits);
-    Picture picture;
+    JsonPicture picture;
     picture.width = scene.film.width;
     for (int y = 0; y < scene.film.height; ++y)
         for (int x = 0; x < scene.film.width; ++x) picture.pixels.push_back(film.estimate(x, y));
@@ -54,10 +54,10 @@ Picture render_picture(const Device& device, const Scene& scene, PictureOptions 
     return picture;
 }
 
-Picture render_picture(const Device& device, const std::string& json, const std::vector<std::string>& overrides,
-                       PictureOptions options)
+JsonPicture render_json(const Device& device, const std::string& json, const std::vector<std::string>& overrides,
+                        JsonPictureOptions options)
 {
-    return render_picture(device, parse_scene(json, "test.json", overrides).scene, options);
+    return render_json(device, parse_scene(json, "test.json", overrides).scene, options);
 }
 
 Verdict judge(double found, double standard_error, double expected, std::size_t tests, double wanted)
