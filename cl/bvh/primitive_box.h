@@ -5,13 +5,15 @@
 
 /* How far a box is pushed outwards, in units in the last place of its largest |coordinate|.
  *
- * Triangles: the slab test of a ray that runs along a face or meets an edge of the box rounds (plane - origin) to
- * either side; one unit outwards keeps the true box inside the rounded one. The vertices themselves are exact.
+ * Triangles: the vertices are exact, but the ray test rounds them: it shears (vertex - origin), so that the triangle it
+ * sees lies up to 4 u (|vertex| + |origin|) beside the true one, and its distance a few u more. The tree must enter
+ * every box whose triangle the test would accept, so the part of the vertex is added here: 8 units, at least 8 u of the
+ * largest |coordinate|. The part of the origin is added by the traversal, see RAY_BOX_PADDING in math/numerics.h.
  *
  * Spheres and disks: centre +- radius rounds (1/2 unit), and their ray tests round |centre - origin| (a few units of
  * the distance, which in normalised coordinates is about 1): the unit is therefore that of the largest |coordinate| or
  * of 1, whichever is more, and there are 8 of them. */
-#define TRIANGLE_BOX_PADDING 1.0
+#define TRIANGLE_BOX_PADDING 8.0
 #define ANALYTIC_BOX_PADDING 8.0
 
 /* PRIMITIVE_*, whatever number is stored. */

@@ -42,12 +42,12 @@ typedef struct ChildHits {
     Float enter0, enter1;
 } ChildHits;
 
-STATIC ChildHits enter_children(global const BvhNode* node, Mask active, Vec3 origin, Vec3 inverse, Float t_max)
+STATIC ChildHits enter_children(global const BvhNode* node, Mask active, BoxRay ray, Float t_max)
 {
     real4 x = node->x, y = node->y, z = node->z;
     ChildHits hits;
-    hits.hit0 = active & box_hit(x.s0, x.s1, y.s0, y.s1, z.s0, z.s1, origin, inverse, t_max, &hits.enter0);
-    hits.hit1 = active & box_hit(x.s2, x.s3, y.s2, y.s3, z.s2, z.s3, origin, inverse, t_max, &hits.enter1);
+    hits.hit0 = active & box_hit(x.s0, x.s1, y.s0, y.s1, z.s0, z.s1, ray, t_max, &hits.enter0);
+    hits.hit1 = active & box_hit(x.s2, x.s3, y.s2, y.s3, z.s2, z.s3, ray, t_max, &hits.enter1);
     hits.enter0 = hits.hit0 ? hits.enter0 : (Float)(INFINITE);
     hits.enter1 = hits.hit1 ? hits.enter1 : (Float)(INFINITE);
     return hits;
@@ -73,7 +73,7 @@ STATIC bool descend(TraversalStack* stack, uint4 child, ChildHits hits, bool go0
 STATIC bool bvh_closest_hit(SceneView view, Mask active, Ray ray, Hit* hit)
 {
     PreparedRay prepared = prepare_ray(ray);
-    Vec3 inverse = vec3(1.0 / ray.direction.x, 1.0 / ray.direction.y, 1.0 / ray.direction.z);
+    BoxRay box_ray = make_box_ray(ray);
     TraversalStack stack;
     stack.size = 0;
     stack.overflow = false;
@@ -81,7 +81,7 @@ STATIC bool bvh_closest_hit(SceneView view, Mask active, Ray ray, Hit* hit)
     bool more = true;
     while (more) {
         uint4 child = view.nodes[node].child;
-        ChildHits hits = enter_children(view.nodes + node, active, ray.origin, inverse, hit->t);
+        ChildHits hits = enter_children(view.nodes + node, active, box_ray, hit->t);
         bool go0 = any_of(hits.hit0), go1 = any_of(hits.hit1);
         if (go0 && (child.x & LEAF_BIT)) {
             leaf_closest_hit(view, child.x & ~LEAF_BIT, child.z, hits.hit0, prepared, hit);
@@ -100,7 +100,7 @@ STATIC bool bvh_closest_hit(SceneView view, Mask active, Ray ray, Hit* hit)
 STATIC Mask bvh_any_hit(SceneView view, Mask active, Ray ray, bool* complete)
 {
     PreparedRay prepared = prepare_ray(ray);
-    Vec3 inverse = vec3(1.0 / ray.direction.x, 1.0 / ray.direction.y, 1.0 / ray.direction.z);
+    BoxRay box_ray = make_box_ray(ray);
     TraversalStack stack;
     stack.size = 0;
     stack.overflow = false;
@@ -109,7 +109,7 @@ STATIC Mask bvh_any_hit(SceneView view, Mask active, Ray ray, bool* complete)
     bool more = true;
     while (more) {
         uint4 child = view.nodes[node].child;
-        ChildHits hits = enter_children(view.nodes + node, open, ray.origin, inverse, ray.t_max);
+        ChildHits hits = enter_children(view.nodes + node, open, box_ray, ray.t_max);
         bool go0 = any_of(hits.hit0), go1 = any_of(hits.hit1);
         if (go0 && (child.x & LEAF_BIT)) {
             open &= not(leaf_any_hit(view, child.x & ~LEAF_BIT, child.z, hits.hit0, prepared));

@@ -25,6 +25,11 @@
 /* The far distance of a slab is enlarged so that the three roundings of each distance cannot lose a hit (Ize 2013). */
 #define SLAB_FAR_FACTOR (1.0 + 2.0 * GAMMA(3))
 
+/* A box is enlarged by this times the largest |coordinate| of the ray's origin, since the triangle test rounds (vertex
+ * - origin): four roundings across the ray and about eight along it. With the padding of the box itself
+ * (bvh/primitive_box.h) the tree then finds, bit for bit, what testing every triangle finds. */
+#define RAY_BOX_PADDING GAMMA(12)
+
 /* Survival below 1/64 trades a little work for weights that no one wants to average. */
 #define MIN_SURVIVAL 0.015625
 

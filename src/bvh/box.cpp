@@ -46,7 +46,7 @@ Box triangle_box(const Primitive& primitive)
     Box box{a, a};
     box.extend(Box{b, b});
     box.extend(Box{c, c});
-    return padded(box, ulp(largest));
+    return padded(box, 8.0f * ulp(largest));
 }
 
 Box sphere_box(const std::array<float, 3>& centre, float radius)

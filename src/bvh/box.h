@@ -26,7 +26,7 @@ struct Box {
 // PRIMITIVE_*, whatever number is stored.
 uint primitive_kind(const Primitive& primitive);
 
-// The box of a primitive pushed outwards: a triangle's by one unit in the last place of its largest |coordinate|, a
+// The box of a primitive pushed outwards: a triangle's by eight units in the last place of its largest |coordinate|, a
 // sphere's or disk's (the box of the sphere around it) by eight units of that or of 1, whichever is more. The
 // derivation is in cl/bvh/primitive_box.h. The box of nothing when anything in it is not finite.
 Box primitive_box(const Primitive& primitive);

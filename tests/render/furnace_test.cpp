@@ -70,7 +70,9 @@ TEST_CASE("half a million secondary rays in a box that glows never leave it", "[
         look(scene, scene.camera.position, scene.camera.look_at, 100, 64, 64);
         scene.sampler.samples_per_pixel = 16;
         for (const bool specialize : {false, true}) {
-            const Picture picture = render_picture(device, scene, {.specialize = specialize, .shape = {}, .crop = {}});
+            PictureOptions how;
+            how.specialize = specialize;
+            const Picture picture = render_picture(device, scene, how);
             check_every_pixel(picture, Vec3(4.32891136), 1e3); // to the digits of that number
             check_every_pixel(picture, furnace_radiance(Vec3(0.8), 8), furnace_roundings(8));
         }
@@ -111,8 +113,7 @@ TEST_CASE("light sampled by area inside a sphere that glows has no variance", "[
     for (const Device& device : test_devices()) {
         Scene scene = furnace(SphereShape{1.0}, albedo, IntegratorType::light, 3);
         for (const PixelEstimate& pixel : render_picture(device, scene).pixels)
-            for (int i = 0; i < 3; ++i)
-                CHECK(pixel.mean[i] == Approx(furnace_radiance(albedo, 3)[i]).epsilon(1e-4));
+            for (int i = 0; i < 3; ++i) CHECK(pixel.mean[i] == Approx(furnace_radiance(albedo, 3)[i]).epsilon(1e-4));
     }
 }
 

@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
@@ -23,8 +23,8 @@ constexpr IntegratorType ESTIMATORS[] = {IntegratorType::hemisphere, IntegratorT
                                          IntegratorType::path};
 
 // No sample of `path` may bring more than 3/2 of what the albedo lets through: with the power heuristic a light sample
-// brings f cos / p_light * p_light^2 / (p_light^2 + p_bsdf^2) <= f cos / (2 p_bsdf) = albedo / 2 times the radiance, and
-// a BSDF sample at most the albedo times the radiance. That bounds variance however close the light is.
+// brings f cos / p_light * p_light^2 / (p_light^2 + p_bsdf^2) <= f cos / (2 p_bsdf) = albedo / 2 times the radiance,
+// and a BSDF sample at most the albedo times the radiance. That bounds variance however close the light is.
 void check_sample_bound(const Device& device, Scene scene, const Vec3& albedo)
 {
     scene.film.width = scene.film.height = 256;
@@ -105,7 +105,7 @@ TEST_CASE("an occluder just before a light hides its half and no more", "[render
         for (const IntegratorType integrator : {IntegratorType::bsdf, IntegratorType::light, IntegratorType::path})
             for (const double gap : {1e-6, 1e-3}) {
                 CAPTURE(static_cast<int>(integrator), gap);
-                Scene scene = floor_seen_at_origin(integrator, 2.0, {0.8, 0.3, 0.1}, 256);
+                Scene scene = floor_seen_at_origin(integrator, 2.0, {0.8, 0.3, 0.1}, 128);
                 add_light(scene, RectangleShape{Vec2(1.0)}, RADIANCE, facing_down({0, 1, 0}));
                 // Its edge is right above the point, so that the shadow's border is the middle of the light.
                 add_shape(scene, RectangleShape{{1, 2}}, add_diffuse(scene, Vec3(0.0)),
@@ -121,12 +121,14 @@ TEST_CASE("a one-sided light gives exactly nothing backwards, a two-sided one as
     const double form_factor = 4.0 * parallel_rectangle_form_factor(0.5, 0.5, 1.0);
     for (const Device& device : test_devices())
         for (const IntegratorType integrator : ESTIMATORS)
-            for (const ShapeGeometry& shape : {ShapeGeometry(RectangleShape{Vec2(1.0)}), ShapeGeometry(DiskShape{0.5})}) {
+            for (const ShapeGeometry& shape :
+                 {ShapeGeometry(RectangleShape{Vec2(1.0)}), ShapeGeometry(DiskShape{0.5})}) {
                 CAPTURE(static_cast<int>(integrator), shape.index());
-                Scene scene = floor_seen_at_origin(integrator, 2.0, {0.8, 0.3, 0.1}, 128);
+                Scene scene = floor_seen_at_origin(integrator, 2.0, {0.8, 0.3, 0.1}, 8);
                 ShapeDescription& light = add_light(scene, shape, RADIANCE, facing_up({0, 1, 0}));
                 check_every_pixel(render_picture(device, scene), Vec3(0.0), 0.0);
                 light.emission->two_sided = true;
+                scene.sampler.samples_per_pixel = 96;
                 const bool is_disk = std::holds_alternative<DiskShape>(shape);
                 means.check(estimate_of(render_picture(device, scene), 0),
                             FLOOR_ALBEDO.x * RADIANCE.x * (is_disk ? disk_form_factor(0.5, 1, 0) : form_factor), 0.02);
@@ -140,7 +142,7 @@ TEST_CASE("a light half sunk in the floor is cut at the horizon", "[render][ligh
     for (const Device& device : test_devices())
         for (const IntegratorType integrator : ESTIMATORS) {
             CAPTURE(static_cast<int>(integrator));
-            Scene scene = floor_seen_at_origin(integrator, 2.0, {0.8, 0.3, 0.1}, 256);
+            Scene scene = floor_seen_at_origin(integrator, 2.0, {0.8, 0.3, 0.1}, 128);
             add_light(scene, RectangleShape{{1.0, 1.2}}, RADIANCE, moved_to({0, 0, -0.7}));
             means.check(render_picture(device, scene), FLOOR_ALBEDO * RADIANCE * form_factor, 0.02);
         }
@@ -151,7 +153,7 @@ TEST_CASE("a light whose plane goes through a point does not light it", "[render
     for (const Device& device : test_devices())
         for (const IntegratorType integrator : ESTIMATORS) {
             CAPTURE(static_cast<int>(integrator));
-            Scene scene = floor_seen_at_origin(integrator, 2.0, {0.3, 0.8, 0.1}, 64);
+            Scene scene = floor_seen_at_origin(integrator, 2.0, {0.3, 0.8, 0.1}, 16);
             // Upright and edge on, and flat in the floor's plane beside the floor.
             add_light(scene, RectangleShape{Vec2(0.5)}, RADIANCE, moved_to({0, 0.5, 0}));
             add_light(scene, RectangleShape{Vec2(0.5)}, RADIANCE, facing_up({-1.3, 0, 0}));
@@ -168,15 +170,16 @@ TEST_CASE("a light just before a ceiling shines, one just behind it does not", "
         for (const IntegratorType integrator : {IntegratorType::bsdf, IntegratorType::light, IntegratorType::path})
             for (const double gap : {1e-2, 1e-4, 1e-6}) {
                 CAPTURE(static_cast<int>(integrator), gap);
-                const auto with_light_at = [&](double height) {
-                    Scene scene = floor_seen_at_origin(integrator, 2.0, {0.8, 0.3, 0.1}, 128);
+                const auto with_light_at = [&](double height, std::uint64_t samples) {
+                    Scene scene = floor_seen_at_origin(integrator, 2.0, {0.8, 0.3, 0.1}, samples);
                     add_shape(scene, RectangleShape{Vec2(2.0)}, add_diffuse(scene, Vec3(0.0)), facing_down({0, 1, 0}));
                     add_light(scene, RectangleShape{Vec2(1.0)}, RADIANCE, facing_down({0, height, 0}));
                     return render_picture(device, scene);
                 };
                 const double form_factor = 4.0 * parallel_rectangle_form_factor(0.5, 0.5, 1.0 - gap);
-                means.check(estimate_of(with_light_at(1.0 - gap), 0), FLOOR_ALBEDO.x * RADIANCE.x * form_factor, 0.01);
-                check_every_pixel(with_light_at(1.0 + gap), Vec3(0.0), 0.0);
+                means.check(estimate_of(with_light_at(1.0 - gap, 96), 0), FLOOR_ALBEDO.x * RADIANCE.x * form_factor,
+                            0.015);
+                check_every_pixel(with_light_at(1.0 + gap, 8), Vec3(0.0), 0.0);
             }
 }
 

@@ -1,4 +1,5 @@
-// A diffuse floor under lights of every kind: radiance rho L F by each estimator, with the form factor F in closed form.
+// A diffuse floor under lights of every kind: radiance rho L F by each estimator, with the form factor F in closed
+// form.
 #include "support/device_evaluate.h"
 #include "support/form_factors.h"
 #include "support/render_scene.h"
@@ -111,14 +112,14 @@ TEST_CASE("a light in each of the four quadrants gives the same light", "[render
     MeanTests means("quadrant lights");
     // 0.1 to 1 along x and 0.1 to 1.3 along z, from rectangles with a corner overhead.
     const auto from_axis = [](double a, double b) { return parallel_rectangle_form_factor(a, b, 0.8); };
-    const double form_factor =
-        from_axis(1.0, 1.3) - from_axis(0.1, 1.3) - from_axis(1.0, 0.1) + from_axis(0.1, 0.1);
+    const double form_factor = from_axis(1.0, 1.3) - from_axis(0.1, 1.3) - from_axis(1.0, 0.1) + from_axis(0.1, 0.1);
     for (const Device& device : test_devices())
         for (const IntegratorType integrator : ESTIMATORS)
             for (const double x : {-0.55, 0.55})
                 for (const double z : {-0.7, 0.7}) {
                     CAPTURE(static_cast<int>(integrator), x, z);
                     Scene scene = lit_floor(integrator);
+                    scene.sampler.samples_per_pixel = 96;
                     add_light(scene, RectangleShape{{0.9, 1.2}}, RADIANCE, facing_down({x, 0.8, z}));
                     const Picture picture = render_picture(device, scene);
                     means.check(estimate_of(picture, 0), FLOOR_ALBEDO.x * RADIANCE.x * form_factor,
@@ -155,7 +156,6 @@ TEST_CASE("a square light cut into 2, 16 and 4096 unequal triangles gives the sa
                 scene.accelerator.build = BuildPlace::host;
                 scene.sampler.samples_per_pixel = 32;
                 add_light(scene, cut_square(columns, rows), RADIANCE, facing_down({0, 1, 0}));
-                means.check(estimate_of(render_picture(device, scene), 0),
-                            FLOOR_ALBEDO.x * RADIANCE.x * form_factor);
+                means.check(estimate_of(render_picture(device, scene), 0), FLOOR_ALBEDO.x * RADIANCE.x * form_factor);
             }
 }

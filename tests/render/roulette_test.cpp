@@ -41,8 +41,7 @@ TEST_CASE("constant roulette has the furnace's mean and its own variance", "[ren
 {
     MeanTests means("constant roulette");
     // All have a finite fourth moment, a^4 < q^3, so that the variance itself can be measured.
-    const std::pair<Vec3, double> cases[] = {
-        {{0.5, 0.3, 0.7}, 0.8}, {{0.5, 0.3, 0.1}, 0.5}, {{0.8, 0.5, 0.3}, 0.9}};
+    const std::pair<Vec3, double> cases[] = {{{0.5, 0.3, 0.7}, 0.8}, {{0.5, 0.3, 0.1}, 0.5}, {{0.8, 0.5, 0.3}, 0.9}};
     for (const Device& device : test_devices())
         for (const auto& [albedo, survival] : cases) {
             Scene scene = endless_furnace(albedo, RouletteType::constant, 64);

@@ -71,23 +71,23 @@ std::vector<double> welch_p_values(const Picture& a, const Picture& b, int tile,
 }
 } // namespace
 
-double Estimate::standard_error() const
-{
-    return std::sqrt(variance / samples);
-}
-
 Estimate estimate_of(const Picture& picture, int channel)
 {
     Moments all;
-    double count = 0.0, largest = 0.0;
+    double count = 0.0, largest = 0.0, squared_errors = 0.0;
     for (const PixelEstimate& pixel : picture.pixels) {
         const double n = static_cast<double>(pixel.samples), error = pixel.standard_error[channel];
-        const Moments of_pixel{pixel.mean[channel], pixel.samples < 2 ? 0.0 : error * error * n * (n - 1.0)};
-        all = merge_moments(all, count, of_pixel, n);
+        // A single sample says nothing of its pixel's variance.
+        const double m2 = pixel.samples < 2 ? 0.0 : error * error * n * (n - 1.0);
+        all = merge_moments(all, count, {pixel.mean[channel], m2}, n);
         count += n;
-        largest = std::max(largest, pixel.mean[channel] * n);
+        squared_errors += error * error;
+        largest = std::max(largest, pixel.mean[channel]);
     }
-    return {all.mean, all.m2 / (count - 1.0), all.mean > 0.0 ? largest / (all.mean * count) : 0.0, count};
+    const double pixels = static_cast<double>(picture.pixels.size()), variance = all.m2 / (count - 1.0);
+    const double stratified = std::sqrt(squared_errors) / pixels;
+    return {all.mean, std::isfinite(stratified) ? stratified : std::sqrt(variance / count), variance,
+            all.mean > 0.0 ? largest / (all.mean * pixels) : 0.0};
 }
 
 void check_every_pixel(const Picture& picture, const Vec3& expected, double roundings)
@@ -123,7 +123,7 @@ void MeanTests::check_difference(double difference, double standard_error, doubl
 
 void MeanTests::check(const Estimate& estimate, double expected, double smallest_bias)
 {
-    check_difference(estimate.mean - expected, estimate.standard_error(), expected, smallest_bias);
+    check_difference(estimate.mean - expected, estimate.standard_error, expected, smallest_bias);
     CAPTURE(subject_);
     CHECK(estimate.largest <= LARGEST_SHARE);
 }

@@ -16,11 +16,9 @@ inline constexpr double UNIT_ROUNDOFF = 0x1p-24;
 // One channel of all samples of a picture together.
 struct Estimate {
     double mean = 0.0;
-    double variance = 0.0; // of one sample
-    double largest = 0.0;  // share of the largest pixel in the sum of all
-    double samples = 0.0;
-
-    double standard_error() const;
+    double standard_error = 0.0; // of the mean; pixels that differ add nothing to it
+    double variance = 0.0;       // of one sample of any pixel
+    double largest = 0.0;        // share of the largest pixel in the sum of all
 };
 Estimate estimate_of(const Picture& picture, int channel);
 

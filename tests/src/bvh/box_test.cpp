@@ -27,7 +27,7 @@ void require_outside(double face, double coordinate, double sign, double units, 
 }
 } // namespace
 
-TEST_CASE("a triangle's box is one unit in the last place wider than its vertices")
+TEST_CASE("a triangle's box is eight units in the last place wider than its vertices")
 {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> u(-1, 1);
@@ -40,8 +40,8 @@ TEST_CASE("a triangle's box is one unit in the last place wider than its vertice
         for (const real4& v : {p.a, p.b, p.c})
             for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(static_cast<double>(v.s[k])));
         for (std::size_t k = 0; k < 3; ++k) {
-            require_outside(box.lower[k], std::min({p.a.s[k], p.b.s[k], p.c.s[k]}), -1, 1, ulp(largest));
-            require_outside(box.upper[k], std::max({p.a.s[k], p.b.s[k], p.c.s[k]}), 1, 1, ulp(largest));
+            require_outside(box.lower[k], std::min({p.a.s[k], p.b.s[k], p.c.s[k]}), -1, 8, ulp(largest));
+            require_outside(box.upper[k], std::max({p.a.s[k], p.b.s[k], p.c.s[k]}), 1, 8, ulp(largest));
         }
     }
 }
