@@ -42,11 +42,9 @@ double find_root(double low, Function rising)
 // 2 (degrees + 2 x).
 double visible_noncentrality(double degrees)
 {
-    const double critical =
-        find_root(degrees, [&](double x) { return test_level() - chi_square_p_value(x, degrees); });
-    return find_root(0.0, [&](double x) {
-        return degrees + x - POWER_QUANTILE * std::sqrt(2.0 * (degrees + 2.0 * x)) - critical;
-    });
+    const double critical = find_root(degrees, [&](double x) { return test_level() - chi_square_p_value(x, degrees); });
+    return find_root(
+        0.0, [&](double x) { return degrees + x - POWER_QUANTILE * std::sqrt(2.0 * (degrees + 2.0 * x)) - critical; });
 }
 } // namespace
 

@@ -126,12 +126,10 @@ TEST_CASE("a ray that starts on a sphere meets it at the other end of the chord,
                 // The origin is rounded off the sphere by this much.
                 const long double error = 16 * UNIT_ROUNDOFF_OF_FLOAT * (0.3l + radius);
                 if (cosine > error / radius) wrong += found.hit[i] != 0;
-                if (cosine > -0.01l) continue;
+                // A line nearer to a tangent than that may pass beside the sphere.
+                if (cosine > -0.01l || cosine * cosine < 4 * error / radius) continue;
                 ++inward;
                 const long double chord = -2 * radius * cosine;
-                if (!found.hit[i] || !(std::abs(found.t[i] - chord) <= error * (1 + 1 / std::abs(cosine))))
-                    WARN(radius << " " << cosine << " " << found.hit[i] << " " << found.t[i] << " " << chord << " "
-                                << error);
                 wrong += !found.hit[i] || !(std::abs(found.t[i] - chord) <= error * (1 + 1 / std::abs(cosine)));
             }
             CHECK(inward > 2000);

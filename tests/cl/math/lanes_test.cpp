@@ -16,26 +16,24 @@ namespace
 const DeviceFunctions functions(
     {"math/lanes.h"},
     {
-        {"ask_mask", "int -> uint uint uint uint uint",
+        {"ask_mask", "int -> uint uint uint uint uint uint uint",
          "Mask m = in0 != 0; out0 = (Uint)(lane_bits(m)); out1 = (Uint)(any_of(m) ? 1u : 0u);"
          "out2 = (Uint)(none_of(m) ? 1u : 0u); out3 = (Uint)(count_of(m));"
-         "out4 = (Uint)(any_of(m) ? lowest_bit(lane_bits(m)) : 99u);"},
+         "out4 = (Uint)(any_of(m) ? lowest_bit(lane_bits(m)) : 99u);"
+         "out5 = (Uint)(lane_bits(in0 < 2) == ALL_LANES ? 1u : 0u); out6 = lane_numbers();"},
         {"mask_logic", "int int -> mask mask mask mask uint mask",
          "Mask a = in0 < 0, b = in1 < 0; out0 = not(a); out1 = a & b; out2 = a | b; out3 = not(not(a) | not(b));"
          "out4 = a ? (Uint)(7u) : (Uint)(9u); out5 = to_mask(1) & not(to_mask(0));"},
-        {"all_lanes", "uint -> uint uint",
-         "out0 = (Uint)(lane_bits(in0 == in0) == ALL_LANES ? 1u : 0u); out1 = lane_numbers();"},
-        {"convert", "float int uint -> int uint float float uint int float",
-         "out0 = to_int(in0); out1 = to_uint(in0); out2 = to_float(in1); out3 = to_float(in2); out4 = uint_bits(in0);"
-         "out5 = int_bits(in0); out6 = from_bits(in2);"},
-        {"convert_negative", "float -> int", "to_int(in0)"},
-        {"multiply", "uint -> uint uint uint uint",
-         "multiply_wide(0xD2511F53u, in0, &out0, &out1); multiply_wide(0xffffffffu, in0, &out2, &out3);"},
-        {"gather", "float* uint* uint mask -> float uint",
-         "out0 = gather_real(in0, in2, in3); out1 = gather_uint(in1, in2, in3);"},
-        {"gather_structs", "Primitive* PrimitiveSurface* uint mask -> float float float float uint uint uint uint",
-         "gather_real4(in0[i].b, in2, in3, &out0, &out1, &out2, &out3);"
-         "gather_members(in1[i], in2, in3, material, &out4, light, &out5, normal, &out6, flags, &out7);"},
+        {"convert", "float float int uint -> int uint int float float uint int float uint uint uint uint",
+         "out0 = to_int(in0); out1 = to_uint(in0); out2 = to_int(in1); out3 = to_float(in2); out4 = to_float(in3);"
+         "out5 = uint_bits(in1); out6 = int_bits(in1); out7 = from_bits(in3);"
+         "multiply_wide(0xD2511F53u, in3, &out8, &out9); multiply_wide(0xffffffffu, in3, &out10, &out11);"},
+        {"gather",
+         "float* uint* Primitive* PrimitiveSurface* uint mask"
+         " -> float uint float float float float uint uint uint uint",
+         "out0 = gather_real(in0, in4, in5); out1 = gather_uint(in1, in4, in5);"
+         "gather_real4(in2[i].b, in4, in5, &out2, &out3, &out4, &out5);"
+         "gather_members(in3[i], in4, in5, material, &out6, light, &out7, normal, &out8, flags, &out9);"},
     });
 
 constexpr std::uint32_t INVALID = 0xffffffffu;
@@ -48,21 +46,20 @@ TEST_CASE("every pattern of lanes is seen by all questions about a mask")
     for (std::uint32_t e = 0; e < set.size(); ++e) set[e] = static_cast<std::int32_t>((e / 16 >> e % 16) & 1u);
     for (Device& device : test_devices())
         for (const std::uint32_t lanes : LANE_COUNTS) {
-            const DeviceResults out = functions.evaluate(device, "ask_mask", {set}, lanes);
-            const auto bits = out.get<std::uint32_t>(0), any = out.get<std::uint32_t>(1);
-            const auto none = out.get<std::uint32_t>(2), count = out.get<std::uint32_t>(3);
-            const auto lowest = out.get<std::uint32_t>(4);
-            std::size_t wrong = 0;
+            const auto out = functions.evaluate(device, "ask_mask", {set}, lanes).outputs;
+            std::size_t wrong = 0, wrong_numbers = 0;
             for (std::uint32_t e = 0; e < set.size(); ++e) {
                 std::uint32_t expected = 0;
                 for (std::uint32_t lane = 0; lane < lanes; ++lane)
                     expected |= static_cast<std::uint32_t>(set[e - e % lanes + lane]) << lane;
-                const std::uint32_t first = expected ? static_cast<std::uint32_t>(std::countr_zero(expected)) : 99u;
-                wrong += bits[e] != expected || any[e] != (expected != 0) || none[e] != (expected == 0) ||
-                         count[e] != static_cast<std::uint32_t>(std::popcount(expected)) || lowest[e] != first;
+                const std::uint32_t lowest = expected ? static_cast<std::uint32_t>(std::countr_zero(expected)) : 99u;
+                wrong += out[0][e] != expected || out[1][e] != (expected != 0) || out[2][e] != (expected == 0) ||
+                         out[3][e] != static_cast<std::uint32_t>(std::popcount(expected)) || out[4][e] != lowest;
+                wrong_numbers += out[5][e] != 1u || out[6][e] != e % lanes;
             }
             CAPTURE(lanes);
             CHECK(wrong == 0);
+            CHECK(wrong_numbers == 0);
         }
 }
 
@@ -81,87 +78,67 @@ TEST_CASE("masks combine and choose by lane")
     }
 }
 
-TEST_CASE("lanes are numbered from 0, and all of them are ALL_LANES")
+TEST_CASE("conversions round and truncate as C does, bits stay bits, and wide products are those of 64-bit integers")
 {
-    const std::vector<std::uint32_t> any(64, 3u);
-    for (Device& device : test_devices())
-        for (const std::uint32_t lanes : LANE_COUNTS) {
-            const DeviceResults out = functions.evaluate(device, "all_lanes", {any}, lanes);
-            CHECK(out.get<std::uint32_t>(0) == std::vector<std::uint32_t>(64, 1u));
-            const auto numbers = out.get<std::uint32_t>(1);
-            for (std::uint32_t e = 0; e < numbers.size(); ++e) CHECK(numbers[e] == e % lanes);
-        }
-}
-
-TEST_CASE("conversions round and truncate as C does, and bits stay bits")
-{
-    const std::vector<float> f{0.0f, 0.99f, 1.5f, 16777215.0f, 2147483520.0f, 1e-42f};
-    const std::vector<std::int32_t> i{0, -1, 16777217, std::numeric_limits<std::int32_t>::min(), 33554435, -33554433};
-    const std::vector<std::uint32_t> u{0u, 1u, 16777219u, 0x7f800000u, 0xffffff7fu, 0x80000000u};
-    for (Device& device : test_devices()) {
-        const DeviceResults out = evaluate_in_all_lanes(functions, device, "convert", {f, i, u});
-        for (std::size_t e = 0; e < f.size(); ++e) {
-            CHECK(out.get<std::int32_t>(0)[e] == static_cast<std::int32_t>(f[e]));
-            CHECK(out.get<std::uint32_t>(1)[e] == static_cast<std::uint32_t>(f[e]));
-            CHECK(out.get<float>(2)[e] == static_cast<float>(i[e]));
-            CHECK(out.get<float>(3)[e] == static_cast<float>(u[e]));
-            CHECK(out.get<std::uint32_t>(4)[e] == std::bit_cast<std::uint32_t>(f[e]));
-            CHECK(out.get<std::int32_t>(5)[e] == std::bit_cast<std::int32_t>(f[e]));
-            CHECK(out.get<std::uint32_t>(6)[e] == u[e]);
-        }
-        const std::vector<float> negative{-0.99f, -1.5f, -2147483648.0f};
-        CHECK(evaluate_in_all_lanes(functions, device, "convert_negative", {negative}).get<std::int32_t>(0) ==
-              std::vector<std::int32_t>{0, -1, std::numeric_limits<std::int32_t>::min()});
-    }
-}
-
-TEST_CASE("wide products are those of 64-bit integers")
-{
+    std::vector<float> positive{0.0f, 0.99f, 1.5f, 16777215.0f, 2147483520.0f, 1e-42f};
+    std::vector<float> negative{-0.0f, -0.99f, -1.5f, -16777215.0f, -2147483648.0f, -1e-42f};
+    std::vector<std::int32_t> i{0, -1, 16777217, std::numeric_limits<std::int32_t>::min(), 33554435, -33554433};
+    std::vector<std::uint32_t> u{0u, 1u, 16777219u, 0x7f800000u, 0xffffffffu, 0x80000000u};
     std::mt19937 random(1);
-    std::vector<std::uint32_t> x{0u, 1u, 0xffffffffu, 0x80000000u, 0x7fffffffu};
-    while (x.size() < 4096) x.push_back(static_cast<std::uint32_t>(random()));
+    while (u.size() < 4096) {
+        u.push_back(static_cast<std::uint32_t>(random()));
+        i.push_back(static_cast<std::int32_t>(random()));
+        positive.push_back(static_cast<float>(random() >> 1) / 512.0f);
+        negative.push_back(-positive.back());
+    }
     for (Device& device : test_devices()) {
-        const DeviceResults out = evaluate_in_all_lanes(functions, device, "multiply", {x});
-        std::size_t wrong = 0;
-        for (std::size_t e = 0; e < x.size(); ++e) {
-            const std::uint64_t a = std::uint64_t{0xD2511F53u} * x[e], b = std::uint64_t{0xffffffffu} * x[e];
-            wrong += out.outputs[0][e] != a >> 32 || out.outputs[1][e] != (a & 0xffffffffu) ||
-                     out.outputs[2][e] != b >> 32 || out.outputs[3][e] != (b & 0xffffffffu);
+        const DeviceResults out = evaluate_in_all_lanes(functions, device, "convert", {positive, negative, i, u});
+        const auto from_integer = out.get<float>(3), from_unsigned = out.get<float>(4);
+        std::size_t wrong_conversions = 0, wrong_bits = 0, wrong_products = 0;
+        for (std::size_t e = 0; e < u.size(); ++e) {
+            wrong_conversions +=
+                out.outputs[0][e] != static_cast<std::uint32_t>(positive[e]) ||
+                out.outputs[1][e] != static_cast<std::uint32_t>(positive[e]) ||
+                static_cast<std::int32_t>(out.outputs[2][e]) != static_cast<std::int32_t>(negative[e]) ||
+                from_integer[e] != static_cast<float>(i[e]) || from_unsigned[e] != static_cast<float>(u[e]);
+            const auto bits = std::bit_cast<std::uint32_t>(negative[e]);
+            wrong_bits += out.outputs[5][e] != bits || out.outputs[6][e] != bits || out.outputs[7][e] != u[e];
+            const std::uint64_t a = std::uint64_t{0xD2511F53u} * u[e], b = std::uint64_t{0xffffffffu} * u[e];
+            wrong_products += out.outputs[8][e] != a >> 32 || out.outputs[9][e] != (a & 0xffffffffu) ||
+                              out.outputs[10][e] != b >> 32 || out.outputs[11][e] != (b & 0xffffffffu);
         }
-        CHECK(wrong == 0);
+        CHECK(wrong_conversions == 0);
+        CHECK(wrong_bits == 0);
+        CHECK(wrong_products == 0);
     }
 }
 
 TEST_CASE("active lanes read their own element, the others element 0, wherever they point")
 {
-    const std::vector<float> reals{10.0f, 11.0f, 12.0f, 13.0f};
-    const std::vector<std::uint32_t> integers{20, 21, 22, 23}, index{3, INVALID, 1, 0, 2, INVALID};
-    const std::vector<std::uint32_t> active{1, 0, 1, 1, 1, 0};
-    for (Device& device : test_devices()) {
-        const DeviceResults out =
-            evaluate_in_all_lanes(functions, device, "gather", {reals, integers, index, active});
-        CHECK(out.get<float>(0) == std::vector<float>{13.0f, 10.0f, 11.0f, 10.0f, 12.0f, 10.0f});
-        CHECK(out.get<std::uint32_t>(1) == std::vector<std::uint32_t>{23, 20, 21, 20, 22, 20});
-    }
-}
-
-TEST_CASE("members of structs are read by lane, each into its own place")
-{
+    std::vector<float> reals(5);
+    std::vector<std::uint32_t> integers(5);
     std::vector<Primitive> primitives(5);
     std::vector<PrimitiveSurface> surfaces(5);
     for (std::uint32_t p = 0; p < 5; ++p) {
+        reals[p] = static_cast<float>(p) + 0.125f;
+        integers[p] = 50 + p;
         primitives[p].b = make_real4(p, p + 0.25, p + 0.5, p + 0.75);
         surfaces[p] = {100 + p, 200 + p, 300 + p, 400 + p};
     }
-    const std::vector<std::uint32_t> index{4, 2, INVALID, 0, 3}, active{1, 1, 0, 1, 1}, read{4, 2, 0, 0, 3};
+    const std::vector<std::uint32_t> index{4, 2, INVALID, 0, 3, INVALID}, active{1, 1, 0, 1, 1, 0};
+    const std::vector<std::uint32_t> read{4, 2, 0, 0, 3, 0};
     for (Device& device : test_devices()) {
         const DeviceResults out =
-            evaluate_in_all_lanes(functions, device, "gather_structs", {primitives, surfaces, index, active});
-        for (std::size_t e = 0; e < index.size(); ++e)
+            evaluate_in_all_lanes(functions, device, "gather", {reals, integers, primitives, surfaces, index, active});
+        for (std::size_t e = 0; e < index.size(); ++e) {
+            CHECK(out.get<float>(0)[e] == static_cast<float>(read[e]) + 0.125f);
+            CHECK(out.get<std::uint32_t>(1)[e] == 50 + read[e]);
             for (std::uint32_t member = 0; member < 4; ++member) {
-                CHECK(out.get<float>(member)[e] == static_cast<float>(read[e]) + 0.25f * static_cast<float>(member));
-                CHECK(out.get<std::uint32_t>(4 + member)[e] == 100 * (member + 1) + read[e]);
+                CHECK(out.get<float>(2 + member)[e] ==
+                      static_cast<float>(read[e]) + 0.25f * static_cast<float>(member));
+                CHECK(out.get<std::uint32_t>(6 + member)[e] == 100 * (member + 1) + read[e]);
             }
+        }
     }
 }
 
