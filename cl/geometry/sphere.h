@@ -23,5 +23,7 @@ STATIC Mask sphere_hit(Primitive sphere, Vec3 origin, Vec3 direction, Mask on_it
     Float t0 = min_of(near_or_far, other);
     Float t1 = max_of(near_or_far, other);
     *t = on_it ? t1 : (t0 > 0.0 ? t0 : t1);
-    return (discriminant >= 0.0) & (not(on_it) | (b > 0.0));
+    /* An origin on a small sphere may be rounded off it: going inward it still meets the far side, where it comes
+     * nearest if nowhere else. */
+    return (on_it & (b > 0.0)) | (not(on_it) & (discriminant >= 0.0));
 }

@@ -110,8 +110,7 @@ TEST_CASE("an occluder just before a light hides its half and no more", "[render
                 // Its edge is right above the point, so that the shadow's border is the middle of the light.
                 add_shape(scene, RectangleShape{{1, 2}}, add_diffuse(scene, Vec3(0.0)),
                           facing_down({-0.5, 1 - gap, 0}));
-                means.check(render_picture(device, scene), FLOOR_ALBEDO * RADIANCE * form_factor,
-                            integrator == IntegratorType::bsdf ? 0.015 : 0.005);
+                means.check(render_picture(device, scene), FLOOR_ALBEDO * RADIANCE * form_factor, 0.015);
             }
 }
 

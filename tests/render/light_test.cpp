@@ -127,7 +127,7 @@ TEST_CASE("a light in each of the four quadrants gives the same light", "[render
                 }
 }
 
-TEST_CASE("two lights of unequal area and radiance add up", "[render][light]")
+TEST_CASE("the light of two unequal lights adds up", "[render][light]")
 {
     MeanTests means("two unequal lights");
     const Vec3 bright(80, 40, 20), dim(0.5, 1.0, 2.0);

@@ -92,6 +92,28 @@ kernel void trace_leaf(SCENE_ARGUMENTS, uint count, global const uint* rays, glo
     Mask occluded = leaf_any_hit(view, 0u, size, active, prepare_ray(ray));
     store_result(results, first, count, active, hit, active & occluded, true);
 }
+
+/* Nodes that a pack visits when no hit shortens its rays; 0 when the stack was too small. */
+kernel void count_visits(SCENE_ARGUMENTS, uint count, global const uint* rays, global uint* results)
+{
+    uint first = (uint)get_global_id(0) * LANES;
+    Ray ray = load_ray(rays, first, count);
+    Mask active = is_valid_ray(ray);
+    BoxRay box_ray = make_box_ray(ray);
+    TraversalStack stack;
+    stack.size = 0;
+    stack.overflow = false;
+    uint node = 0u, visits = 0u;
+    bool more = true;
+    while (more) {
+        visits++;
+        uint4 child = nodes[node].child;
+        ChildHits hits = enter_children(nodes + node, active, box_ray, ray.t_max);
+        bool go0 = any_of(hits.hit0) && !(child.x & LEAF_BIT), go1 = any_of(hits.hit1) && !(child.y & LEAF_BIT);
+        more = descend(&stack, child, hits, go0, go1, &node) || stack_pop(&stack, active, ray.t_max, &node);
+    }
+    store_word(results, first, count, 0u, (Uint)(stack.overflow ? 0u : visits));
+}
 )";
 
 std::vector<uint> ray_words(const std::vector<TestRay>& rays)
@@ -100,6 +122,15 @@ std::vector<uint> ray_words(const std::vector<TestRay>& rays)
     std::vector<uint> words(rays.size() * RAY_WORDS);
     if (!rays.empty()) std::memcpy(words.data(), rays.data(), words.size() * sizeof(uint));
     return words;
+}
+
+TracedRays as_traced_rays(const std::vector<uint>& words)
+{
+    TracedRays traced;
+    std::vector<uint>* columns[] = {&traced.valid, &traced.t,        &traced.primitive, &traced.b1,
+                                    &traced.b2,    &traced.occluded, &traced.complete};
+    for (std::size_t i = 0; i < words.size(); ++i) columns[i % RESULT_WORDS]->push_back(words[i]);
+    return traced;
 }
 
 // Where a ray may start or go: a vertex, the middle of an edge or of a triangle; near the centre of another primitive.
@@ -276,9 +307,9 @@ TraversalScene::TraversalScene(std::vector<Primitive> primitives)
 {
 }
 
-TracedRays TraversalKernels::trace(const std::string& kernel, const TraversalScene& scene,
-                                   const std::vector<uint>& leaves, AcceleratorType accelerator,
-                                   const std::vector<TestRay>& rays, std::uint32_t lanes)
+std::vector<uint> TraversalKernels::run(const std::string& kernel, const TraversalScene& scene,
+                                        const std::vector<uint>& leaves, AcceleratorType accelerator,
+                                        const std::vector<TestRay>& rays, std::uint32_t lanes)
 {
     // Build the program at its first use.
     if (lanes == 0) lanes = device_.preferred_lanes();
@@ -303,24 +334,27 @@ TracedRays TraversalKernels::trace(const std::string& kernel, const TraversalSce
         .run((rays.size() + lanes - 1) / lanes, 1, settings_buffer, nodes, leaf_primitives, primitives, none, none,
              none, none, none, none, static_cast<uint>(rays.size()), words, results);
 
-    const std::vector<uint> out = results.read();
-    TracedRays traced;
-    std::vector<uint>* columns[] = {&traced.valid, &traced.t,        &traced.primitive, &traced.b1,
-                                    &traced.b2,    &traced.occluded, &traced.complete};
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        for (std::size_t k = 0; k < RESULT_WORDS; ++k) columns[k]->push_back(out[i * RESULT_WORDS + k]);
-    return traced;
+    return results.read();
 }
 
 TracedRays TraversalKernels::trace(const TraversalScene& scene, const std::vector<TestRay>& rays,
                                    AcceleratorType accelerator, std::uint32_t lanes)
 {
-    return trace("trace_scene", scene, scene.bvh().leaf_primitives, accelerator, rays, lanes);
+    return as_traced_rays(run("trace_scene", scene, scene.bvh().leaf_primitives, accelerator, rays, lanes));
 }
 
 TracedRays TraversalKernels::trace_leaf(const TraversalScene& scene, const std::vector<TestRay>& rays,
                                         const std::vector<uint>& leaf, std::uint32_t lanes)
 {
-    return trace("trace_leaf", scene, leaf, ACCELERATOR_BRUTE_FORCE, rays, lanes);
+    return as_traced_rays(run("trace_leaf", scene, leaf, ACCELERATOR_BRUTE_FORCE, rays, lanes));
+}
+
+std::vector<uint> TraversalKernels::visits(const TraversalScene& scene, const std::vector<TestRay>& rays)
+{
+    const std::vector<uint> words =
+        run("count_visits", scene, scene.bvh().leaf_primitives, ACCELERATOR_LBVH, rays, 1);
+    std::vector<uint> counts;
+    for (std::size_t i = 0; i < rays.size(); ++i) counts.push_back(words[i * RESULT_WORDS]);
+    return counts;
 }
 } // namespace etendue

@@ -74,9 +74,12 @@ public:
     TracedRays trace_leaf(const TraversalScene& scene, const std::vector<TestRay>& rays, const std::vector<uint>& leaf,
                           std::uint32_t lanes = 0);
 
+    // Nodes that each ray alone visits when no hit shortens it; 0 when the stack was too small.
+    std::vector<uint> visits(const TraversalScene& scene, const std::vector<TestRay>& rays);
+
 private:
-    TracedRays trace(const std::string& kernel, const TraversalScene& scene, const std::vector<uint>& leaves,
-                     AcceleratorType accelerator, const std::vector<TestRay>& rays, std::uint32_t lanes);
+    std::vector<uint> run(const std::string& kernel, const TraversalScene& scene, const std::vector<uint>& leaves,
+                          AcceleratorType accelerator, const std::vector<TestRay>& rays, std::uint32_t lanes);
 
     const Device& device_;
     std::uint32_t stack_size_;

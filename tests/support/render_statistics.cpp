@@ -14,7 +14,7 @@ namespace etendue
 {
 namespace
 {
-// The family of all tests of a run has this level, so one of them has |t| < 4.75; sound as long as there are no more.
+// The family of all tests of a run has this level, so that each has |t| < 4.75; on one device there are some 300.
 constexpr double FAMILY_LEVEL = 1e-3;
 constexpr std::size_t FAMILY_TESTS = 500;
 // A bias at the smallest that a test may miss is found with this quantile's probability, 99 %.

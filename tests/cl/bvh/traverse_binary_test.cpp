@@ -9,7 +9,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <random>
 
 namespace etendue
@@ -237,6 +239,65 @@ TEST_CASE("the tree finds what testing every primitive finds, bit for bit, at ev
         for (const char* name : {"soup", "closed mesh", "coplanar pairs", "mixed kinds"}) CHECK(hits[name] > 7000);
         for (const char* name : {"identical", "nested", "random bits", "deep"}) CHECK(hits[name] > 20);
         CHECK(hits["no primitive"] + hits["none finite"] == 0);
+    }
+}
+
+TEST_CASE("a stack that is too small is reported by the rays that it fails, and the others are right")
+{
+    const TraversalScene scene(soup(500));
+    const std::vector<TestRay> rays = nasty_rays(scene.primitives(), 700, 2);
+    for (const Device& device : test_devices()) {
+        const TracedRays expected = TraversalKernels(device).trace(scene, rays, ACCELERATOR_BRUTE_FORCE);
+        for (const std::uint32_t lanes : {1u, 8u}) {
+            TracedRays found = TraversalKernels(device, 2).trace(scene, rays, ACCELERATOR_LBVH, lanes);
+            const auto incomplete = std::count(found.complete.begin(), found.complete.end(), 0u);
+            CHECK(incomplete > 50);
+            if (lanes == 1) CHECK(incomplete < 650);
+            // Compare the complete ones.
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                if (found.complete[i]) continue;
+                found.t[i] = expected.t[i];
+                found.primitive[i] = expected.primitive[i];
+                found.b1[i] = expected.b1[i];
+                found.b2[i] = expected.b2[i];
+                found.occluded[i] = expected.occluded[i];
+            }
+            CHECK(differences(expected, found, rays) == std::vector<std::string>{});
+        }
+    }
+}
+
+TEST_CASE("rays along an axis through the vertices of a grid visit hardly more than tilted ones")
+{
+    // A grid in the plane y = 0, 64 x 64 squares of two triangles.
+    std::vector<Primitive> grid;
+    const auto vertex = [](int i, int k) { return make_real4(i / 32.0 - 1, 0, k / 32.0 - 1); };
+    for (int i = 0; i < 64; ++i)
+        for (int k = 0; k < 64; ++k) {
+            grid.push_back(make_triangle(vertex(i, k), vertex(i + 1, k), vertex(i, k + 1)));
+            grid.push_back(make_triangle(vertex(i + 1, k), vertex(i + 1, k + 1), vertex(i, k + 1)));
+        }
+    std::vector<TestRay> straight, tilted;
+    for (int i = 0; i <= 64; ++i)
+        for (int k = 0; k <= 64; ++k)
+            for (const float zero : {0.0f, -0.0f}) {
+                const real4 v = vertex(i, k);
+                TestRay ray{{v.s[0], 1, v.s[2]}, {zero, -1, zero}, std::numeric_limits<float>::infinity()};
+                straight.push_back(ray);
+                ray.direction[0] = ray.direction[2] = 1e-3f;
+                tilted.push_back(ray);
+            }
+    const TraversalScene scene(grid);
+    for (const Device& device : test_devices()) {
+        TraversalKernels kernels(device);
+        const auto mean = [&](const std::vector<TestRay>& rays) {
+            const std::vector<uint> visits = kernels.visits(scene, rays);
+            CHECK(std::count(visits.begin(), visits.end(), 0u) == 0);
+            return std::accumulate(visits.begin(), visits.end(), 0.0) / static_cast<double>(visits.size());
+        };
+        CHECK(mean(straight) <= 2 * mean(tilted));
+        const TracedRays traced = kernels.trace(scene, straight, ACCELERATOR_LBVH);
+        CHECK(std::count(traced.primitive.begin(), traced.primitive.end(), NO_INDEX) == 0);
     }
 }
 } // namespace etendue

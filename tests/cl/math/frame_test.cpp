@@ -22,8 +22,8 @@ const DeviceFunctions
                    "out6 = f.n.x; out7 = f.n.y; out8 = f.n.z;"},
                   {"there_and_back", "float float float float float float -> float float float float float float float",
                    "Frame f = make_frame(vec3(in0, in1, in2)); Vec3 w = vec3(in3, in4, in5);"
-                   "Vec3 local = to_local(f, w), world = to_world(f, local);"
-                   "out0 = local.x; out1 = local.y; out2 = local.z; out3 = world.x; out4 = world.y; out5 = world.z;"
+                   "Vec3 l = to_local(f, w), back = to_world(f, l);"
+                   "out0 = l.x; out1 = l.y; out2 = l.z; out3 = back.x; out4 = back.y; out5 = back.z;"
                    "out6 = dot3(w, f.n);"},
                   {"side", "float float -> mask",
                    "same_hemisphere(vec3((Float)(0.5), (Float)(0.5), in0), vec3((Float)(-0.5), (Float)(0.5), in1))"},

@@ -1,95 +1,177 @@
-// Random numbers of the kernels against the published answers of Philox.
-#include "support/device_evaluate.h"
+// Random numbers by position: known answers, an independent generator, counters that never meet, independent streams.
+#include "support/chi_square.h"
+#include "support/device_lanes.h"
 
 #include <catch2/catch.hpp>
 
-#include <algorithm>
+#include <array>
+#include <random>
+#include <set>
 
 using namespace etendue;
 
 namespace
 {
-using Words = std::vector<std::uint32_t>;
-
-// A key is uniform over the lanes, so it comes as an array.
 const DeviceFunctions functions(
     {"sampling/random.h"},
     {
-        {"philox", "uint uint uint uint uint* -> uint uint uint uint",
-         "RandomBlock b = philox(in0, in1, in2, in3, in4[0], in4[1]); out0 = b.x; out1 = b.y; out2 = b.z; out3 = b.w;"},
-        {"stream", "uint uint uint uint* -> uint uint uint uint",
-         "RandomStream s; s.pixel = in0; s.sample = in1; s.key_low = in3[0]; s.key_high = in3[1]; s.sample_high = "
-         "in3[2]; RandomBlock b = random_block(s, in2); out0 = b.x; out1 = b.y; out2 = b.z; out3 = b.w;"},
-        {"uniform", "uint -> float", "uniform_float(in0)"},
-        {"below", "uint uint -> mask", "below_threshold(in0, in1)"},
+        {"philox", "uint* uint uint uint uint -> uint uint uint uint",
+         "RandomBlock b = philox(in1, in2, in3, in4, in0[0], in0[1]); out0 = b.x; out1 = b.y; out2 = b.z; out3 = b.w;"},
+        // key low, key high, sample high; pixel, sample, dimension
+        {"block", "uint* uint uint uint -> uint uint uint uint",
+         "RandomStream s = {in0[0], in0[1], in0[2], in1, in2}; RandomBlock b = random_block(s, in3);"
+         "out0 = b.x; out1 = b.y; out2 = b.z; out3 = b.w;"},
+        {"convert", "uint uint -> float mask", "out0 = uniform_float(in0); out1 = below_threshold(in0, in1);"},
     });
 
-Words block_of(const Device& device, const Words& counter, const Words& key, std::uint32_t lanes)
+using Words = std::vector<std::uint32_t>;
+using Block = std::array<std::uint32_t, 4>;
+
+// Philox4x32-10 from its definition: ten rounds of two multiplications, the key raised in between.
+Block reference_philox(Block c, std::uint64_t k0, std::uint64_t k1)
 {
-    const DeviceResults out = functions.evaluate(
-        device, "philox", {Words{counter[0]}, Words{counter[1]}, Words{counter[2]}, Words{counter[3]}, key}, lanes);
-    return {out.outputs[0][0], out.outputs[1][0], out.outputs[2][0], out.outputs[3][0]};
+    for (int round = 0; round < 10; ++round) {
+        const std::uint64_t first = 0xD2511F53ull * c[0], second = 0xCD9E8D57ull * c[2];
+        c = {static_cast<std::uint32_t>((second >> 32) ^ c[1] ^ k0), static_cast<std::uint32_t>(second),
+             static_cast<std::uint32_t>((first >> 32) ^ c[3] ^ k1), static_cast<std::uint32_t>(first)};
+        k0 = (k0 + 0x9E3779B9u) & 0xffffffffu;
+        k1 = (k1 + 0xBB67AE85u) & 0xffffffffu;
+    }
+    return c;
+}
+
+Block element(const DeviceResults& out, std::size_t i)
+{
+    return {out.outputs[0][i], out.outputs[1][i], out.outputs[2][i], out.outputs[3][i]};
+}
+
+double unit(std::uint32_t bits)
+{
+    return bits * 0x1p-32;
 }
 } // namespace
 
-TEST_CASE("Philox gives the known answers of its authors at every number of lanes")
+TEST_CASE("Philox gives the known answers of its authors")
 {
+    struct KnownAnswer {
+        Words key;
+        Block counter, answer;
+    };
     const std::uint32_t ones = 0xffffffffu;
+    const KnownAnswer known[] = {
+        {{0, 0}, {0, 0, 0, 0}, {0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}},
+        {{ones, ones}, {ones, ones, ones, ones}, {0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}},
+        {{0xa4093822, 0x299f31d0},
+         {0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344},
+         {0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}},
+    };
     for (Device& device : test_devices())
-        for (const std::uint32_t lanes : LANE_COUNTS) {
-            CHECK(block_of(device, {0, 0, 0, 0}, {0, 0}, lanes) ==
-                  Words{0x6627e8d5u, 0xe169c58du, 0xbc57ac4cu, 0x9b00dbd8u});
-            CHECK(block_of(device, {ones, ones, ones, ones}, {ones, ones}, lanes) ==
-                  Words{0x408f276du, 0x41c83b0eu, 0xa20bc7c6u, 0x6d5451fdu});
-            CHECK(block_of(device, {0x243f6a88u, 0x85a308d3u, 0x13198a2eu, 0x03707344u}, {0xa4093822u, 0x299f31d0u},
-                           lanes) == Words{0xd16cfe09u, 0x94fdccebu, 0x5001e420u, 0x24126ea1u});
+        for (const auto& [key, c, answer] : known)
+            CHECK(element(evaluate_in_all_lanes(functions, device, "philox",
+                                                {key, Words{c[0]}, Words{c[1]}, Words{c[2]}, Words{c[3]}}),
+                          0) == answer);
+}
+
+TEST_CASE("Philox agrees with its definition for random counters and keys")
+{
+    std::mt19937 random(1);
+    for (Device& device : test_devices())
+        for (int run = 0; run < 4; ++run) {
+            const Words key{static_cast<std::uint32_t>(random()), static_cast<std::uint32_t>(random())};
+            std::vector<Words> c(4, Words(4096));
+            for (Words& words : c)
+                for (std::uint32_t& word : words) word = static_cast<std::uint32_t>(random());
+            const DeviceResults out = evaluate_in_all_lanes(functions, device, "philox", {key, c[0], c[1], c[2], c[3]});
+            std::size_t wrong = 0;
+            for (std::size_t i = 0; i < 4096; ++i)
+                wrong += element(out, i) != reference_philox({c[0][i], c[1][i], c[2][i], c[3][i]}, key[0], key[1]);
+            CHECK(wrong == 0);
         }
 }
 
-TEST_CASE("every lane draws the numbers that it would draw alone")
-{
-    Words c0, c1, c2, c3;
-    for (std::uint32_t i = 0; i < 1000; ++i) {
-        c0.push_back(i * 2654435761u);
-        c1.push_back(i);
-        c2.push_back(~i);
-        c3.push_back(i * i * 40503u);
-    }
-    const Words key{17u, 0x80000000u};
-    for (Device& device : test_devices()) {
-        const auto alone = functions.evaluate(device, "philox", {c0, c1, c2, c3, key}, 1).outputs;
-        for (const std::uint32_t lanes : LANE_COUNTS)
-            CHECK(functions.evaluate(device, "philox", {c0, c1, c2, c3, key}, lanes).outputs == alone);
-    }
-}
-
-TEST_CASE("a block is Philox of pixel, sample, dimension and the sample's high word under the seed")
+TEST_CASE("pixel, sample and dimension each have their own word of the counter, and no two positions share a block")
 {
     for (Device& device : test_devices()) {
-        const auto by_stream =
-            functions.evaluate(device, "stream", {Words{11}, Words{22}, Words{33}, Words{55, 66, 44}}).outputs;
-        CHECK(by_stream ==
-              functions.evaluate(device, "philox", {Words{11}, Words{22}, Words{33}, Words{44}, Words{55, 66}}).outputs);
+        // Every combination of small and huge pixels, samples across 2^32, and dimensions beyond 1024.
+        std::set<Block> blocks;
+        std::size_t positions = 0;
+        for (const std::uint32_t sample_high : {0u, 1u, 7u})
+            for (const std::uint32_t seed : {5u, 6u}) {
+                Words pixel, sample, dimension;
+                for (const std::uint32_t p : {0u, 1u, 2u, 16384u * 16384u - 1u, 0xffffffffu})
+                    for (const std::uint32_t s : {0u, 1u, 2u, 3u, 63u, 64u, 0xfffffff8u, 0xffffffffu})
+                        for (const std::uint32_t d : {0u, 1u, 2u, 3u, 1024u, 1025u, 65536u, 131073u}) {
+                            pixel.push_back(p);
+                            sample.push_back(s);
+                            dimension.push_back(d);
+                        }
+                const Words stream{seed, 0x80000000u, sample_high};
+                const DeviceResults out =
+                    evaluate_in_all_lanes(functions, device, "block", {stream, pixel, sample, dimension});
+                for (std::size_t i = 0; i < pixel.size(); ++i) {
+                    blocks.insert(element(out, i));
+                    CHECK(element(out, i) ==
+                          reference_philox({pixel[i], sample[i], dimension[i], sample_high}, seed, 0x80000000u));
+                }
+                positions += pixel.size();
+            }
+        CHECK(blocks.size() == positions);
     }
 }
 
-TEST_CASE("a uniform number is the upper 24 bits of its integer, so that it never reaches 1")
+TEST_CASE("bits become numbers of [0, 1) and choices, exactly")
 {
-    const Words bits{0u, 255u, 256u, 0x80000000u, 0xfffffeffu, 0xffffff00u, 0xffffffffu};
-    std::vector<float> expected;
-    for (const std::uint32_t b : bits) expected.push_back(static_cast<float>(b / 256u) / 16777216.0f);
-    REQUIRE(*std::max_element(expected.begin(), expected.end()) < 1.0f);
-    for (Device& device : test_devices())
-        for (const std::uint32_t lanes : LANE_COUNTS)
-            CHECK(functions.evaluate<float>(device, "uniform", {bits}, lanes) == expected);
+    Words bits{0, 255, 256, 0xffffff00u, 0xffffff80u, 0xffffffffu, 0x80000000u, 0x7fffffffu};
+    Words threshold{0, 255, 257, 0xffffff00u, 0xffffffffu, 0xffffffffu, 0x80000001u, 0x7fffffffu};
+    std::mt19937 random(2);
+    while (bits.size() < 65536) {
+        bits.push_back(static_cast<std::uint32_t>(random()));
+        threshold.push_back(bits.back() + static_cast<std::uint32_t>(random() % 3) - 1u);
+    }
+    for (Device& device : test_devices()) {
+        const DeviceResults out = evaluate_in_all_lanes(functions, device, "convert", {bits, threshold});
+        const auto u = out.get<float>(0);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < bits.size(); ++i)
+            wrong += u[i] != std::floor(unit(bits[i]) * 0x1p24) * 0x1p-24 || !(u[i] >= 0.0f && u[i] < 1.0f) ||
+                     out.outputs[1][i] != (bits[i] < threshold[i]);
+        CHECK(wrong == 0);
+        CHECK(u[5] == 1.0f - 0x1p-24f);
+    }
 }
 
-TEST_CASE("an integer below its threshold is compared without a sign")
+TEST_CASE("neighbouring pixels, samples, dimensions, seeds and words draw independently")
 {
-    const Words bits{0, 0, 5, 6, 0x7fffffffu, 0x80000000u, 0xffffffffu, 0xfffffffeu};
-    const Words thresholds{0, 1, 6, 6, 0x80000000u, 0x7fffffffu, 0xffffffffu, 0xffffffffu};
-    for (Device& device : test_devices())
-        for (const std::uint32_t lanes : LANE_COUNTS)
-            CHECK(functions.evaluate<std::uint32_t>(device, "below", {bits, thresholds}, lanes) ==
-                  Words{0, 1, 1, 0, 1, 0, 0, 1});
+    // Pairs of numbers, one of a position and one of its neighbour: uniform over the square.
+    constexpr std::size_t COUNT = 1 << 20;
+    Words pixel(COUNT), sample(COUNT), dimension(COUNT);
+    for (std::uint32_t i = 0; i < COUNT; ++i) {
+        pixel[i] = i % 1024;
+        sample[i] = i / 1024 % 256;
+        dimension[i] = i / (1024 * 256);
+    }
+    const auto shifted = [](Words words) {
+        for (std::uint32_t& word : words) ++word;
+        return words;
+    };
+    for (Device& device : test_devices()) {
+        const auto draw = [&](const Words& stream, const Words& p, const Words& s, const Words& d) {
+            return functions.evaluate(device, "block", {stream, p, s, d}).outputs;
+        };
+        const Words stream{1, 0, 0};
+        const auto here = draw(stream, pixel, sample, dimension);
+        const std::pair<std::string, std::vector<std::uint32_t>> neighbours[] = {
+            {"pixels", draw(stream, shifted(pixel), sample, dimension)[0]},
+            {"samples", draw(stream, pixel, shifted(sample), dimension)[0]},
+            {"dimensions", draw(stream, pixel, sample, shifted(dimension))[0]},
+            {"seeds", draw({2, 0, 0}, pixel, sample, dimension)[0]},
+            {"first and second words", here[1]},
+            {"first and fourth words", here[3]},
+        };
+        for (const auto& [name, there] : neighbours) {
+            Histogram pairs(16, 16);
+            for (std::size_t i = 0; i < COUNT; ++i) pairs.add(unit(here[0][i]), unit(there[i]));
+            check_histogram("random numbers of neighbouring " + name, pairs, std::vector<double>(256, 1.0 / 256));
+        }
+    }
 }

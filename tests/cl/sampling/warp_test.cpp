@@ -183,9 +183,12 @@ TEST_CASE("the mean of sampled directions and points is that of the shape")
     const struct {
         std::string name;
         Vec3 mean;
-    } shapes[] = {{"cosine_hemisphere", {0, 0, 2.0 / 3.0}}, {"uniform_hemisphere", {0, 0, 0.5}},
-                  {"uniform_sphere", {0, 0, 0}},           {"triangle", {1.0 / 3.0, 1.0 / 3.0, 0}},
-                  {"disk", {0, 0, 0}},                     {"tent", {0, 0, 0}},
+    } shapes[] = {{"cosine_hemisphere", {0, 0, 2.0 / 3.0}},
+                  {"uniform_hemisphere", {0, 0, 0.5}},
+                  {"uniform_sphere", {0, 0, 0}},
+                  {"triangle", {1.0 / 3.0, 1.0 / 3.0, 0}},
+                  {"disk", {0, 0, 0}},
+                  {"tent", {0, 0, 0}},
                   {"gaussian", {0, 0, 0}}};
     for (Device& device : test_devices())
         for (const auto& shape : shapes) {
