@@ -43,5 +43,8 @@ int main(int argc, char** argv)
     } catch (const std::bad_alloc&) {
         std::cerr << "etendue: This machine has not enough memory for the scene.\n";
         return static_cast<int>(etendue::ExitCode::scene);
+    } catch (const std::exception& e) {
+        std::cerr << "etendue: The system refused something: " << e.what() << ".\n";
+        return static_cast<int>(etendue::ExitCode::device);
     }
 }

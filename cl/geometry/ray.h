@@ -3,7 +3,8 @@
 #include "math/vector.h"
 #include "shared/limits.h"
 
-/* The direction need not be unit: t counts in its lengths. Hits have 0 < t <= t_max. */
+/* The direction need not be unit: t counts in its lengths. Closest hits have 0 < t <= t_max; what blocks has
+ * 0 < t < t_max. */
 typedef struct Ray {
     Vec3 origin;
     Vec3 direction;

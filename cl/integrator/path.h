@@ -60,7 +60,7 @@ STATIC void path_begin(SceneView view, PathState* path, Mask fresh, Uint x, Uint
     path->active |= fresh;
 }
 
-/* End paths whose accident has just been noted. */
+/* End the paths of a mask, noting the accident. */
 STATIC void path_drop(PathState* path, Mask broken, uint kind)
 {
     if (any_of(broken)) {

@@ -198,7 +198,7 @@ STATIC Uint gather_uint(global const uint* base, Uint index, Mask active)
     for (int lane = 0; lane < LANES; lane++) value.lane[lane] = base[i.lane[lane]];
     return value.lanes;
 }
-/* Read the real4 or uint4 that an expression of `i` names, for i = index of each active lane (0 for the others), e.g.
+/* Read the real4 that an expression of `i` names, for i = index of each active lane (0 for the others), e.g.
  * gather_real4(primitives[i].a, hit.primitive, active, &x, &y, &z, &w). */
 #define gather_real4(element, index, active, out0, out1, out2, out3)                                                   \
     do {                                                                                                               \
@@ -220,7 +220,7 @@ STATIC Uint gather_uint(global const uint* base, Uint index, Mask active)
         *(out3) = w_.lanes;                                                                                            \
     } while (0)
 
-/* Read up to four uint members of the struct that an expression of `i` names. */
+/* Read four uint members of the struct that an expression of `i` names. */
 #define gather_members(element, index, active, m0, out0, m1, out1, m2, out2, m3, out3)                                 \
     do {                                                                                                               \
         UintLanes index_, x_, y_, z_, w_;                                                                              \

@@ -36,8 +36,6 @@
 /* A cosine below this is no direction along a surface that floats can tell from the surface itself. */
 #define MIN_COSINE 0x1p-60
 
-#define ONE_MINUS_EPSILON (1.0 - UNIT_ROUNDOFF)
-
 STATIC Float min_of(Float a, Float b)
 {
     return a < b ? a : b;

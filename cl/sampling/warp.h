@@ -88,7 +88,8 @@ STATIC Float tent_sample(Float u)
     return u < 0.5 ? low : high;
 }
 
-/* Offset by a round Gaussian of standard deviation 1 cut off at a radius, by inversion (Box and Muller 1958). */
+/* Offset by a round Gaussian of standard deviation 1 cut off at a radius, by inversion (Box and Muller 1958); mass is
+ * its part within the radius, 1 - exp(-radius^2 / 2). */
 STATIC Vec2 truncated_gaussian_sample(Float u, Float v, Float radius, Float mass)
 {
     Float sine, cosine;

@@ -23,7 +23,7 @@
 
 #define ACCELERATOR_LIST(X)                                                                                            \
     X(BRUTE_FORCE, none, "every primitive is tested; for a few dozen of them the fastest way")                         \
-    X(LBVH, lbvh, "binary tree in Morton order, built on the device")
+    X(LBVH, lbvh, "binary tree in Morton order, built by kernels where it is large")
 
 #define OPTION_LIST(X)                                                                                                 \
     X(VERTEX_NORMALS, vertex_normals, "shading normals interpolated over triangles")                                   \

@@ -29,7 +29,7 @@ typedef struct RenderSettings {
     uint light_count;
     uint alias_shift;          /* 32 - log2(number of alias buckets) */
     uint environment_light;    /* index of the environment in Light[], or NO_INDEX */
-    real4 filter_parameters;   /* radius in pixels; gaussian: sigma in pixels; 0; 0 */
+    real4 filter_parameters;   /* radius; gaussian: sigma, both in pixels, and the mass within the radius; 0 */
     real4 roulette_parameters; /* constant survival probability; 0; 0; 0 */
     real4 scene_bounds;        /* centre and radius of the bounding sphere of the geometry */
 } RenderSettings;

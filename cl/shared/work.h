@@ -14,7 +14,7 @@ typedef struct WorkUnit {
     uint pool_size; /* samples that one work-item traces */
 } WorkUnit;
 
-/* One traced sample. radiance.w: 0, or kind + 1 + 16 * bounce of the first accident (HEALTH_*); radiance is 0 then. */
+/* One traced sample. radiance.w: 0, or kind + 1 + 16 * vertex of the first accident (HEALTH_*); radiance is 0 then. */
 typedef struct SampleResult {
     real4 radiance;
 } SampleResult;
@@ -56,10 +56,10 @@ typedef struct PixelAov {
 #define COUNT_LANE_SLOTS 4 /* LANES, summed over the same steps */
 #define COUNT_KINDS 5
 
-/* Of one launch; zero it before (first: all ones). A work-item counts up to 2^32 - 1 of each in one launch. */
+/* Of one launch; zero it before (first: all ones). */
 typedef struct LaunchCounters {
     uint health[8];       /* by HEALTH_* */
     uint health_first[8]; /* lowest flat index that had it */
     uint counts[8];       /* by COUNT_*, low words */
-    uint counts_high[8];  /* reserved, 0 */
+    uint counts_high[8];  /* high words */
 } LaunchCounters;

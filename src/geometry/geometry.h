@@ -13,7 +13,7 @@ namespace etendue
 {
 // normalised = (world - centre) * scale, computed in double and then rounded to float. scale is a power of two that
 // brings the largest half-extent of the geometry into (1/2, 1], so that translating a scene by a representable vector
-// or scaling it by a power of two changes no bit (NUMERICS: scale and translation).
+// or scaling it by a power of two changes no bit.
 struct Normalisation {
     Vec3 centre{0.0};
     double scale = 1.0;

@@ -18,8 +18,8 @@ struct LightList {
     std::vector<double> powers; // of the mean radiance; W per unit of area used
 };
 
-// Append a primitive that emits, of this area; return its index, or NO_INDEX where the radiance is zero. Throws SceneError
-// at `where`: a radiance that is negative or not a finite float.
+// Append a primitive that emits, of this area; return its index, or NO_INDEX where the radiance is zero. Throws
+// SceneError at `where`: a radiance that is negative or not a finite float.
 std::uint32_t add_area_light(LightList& list, const Emission& emission, std::uint32_t primitive, double area,
                              const SourceLocation& where);
 

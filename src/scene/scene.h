@@ -44,8 +44,8 @@ struct IntegratorDescription {
     IntegratorType type = IntegratorType::path;
     std::optional<std::uint32_t> max_depth = 12; // surface vertices at which light is gathered; empty: no limit
     RouletteType roulette = RouletteType::throughput;
-    double roulette_probability = 0.8;   // survival; constant only
-    std::uint32_t roulette_start = 3;    // vertices before roulette begins
+    double roulette_probability = 0.8; // survival; constant only
+    std::uint32_t roulette_start = 3;  // vertices before roulette begins
     SourceLocation location;
 };
 

@@ -251,7 +251,6 @@ TEST_CASE("the general kernel gives the picture of the specialised one", "[rende
          true},
         {plain_scene(R"("type": "light", "max_depth": 4, "roulette": "off")"), false},
         {plain_scene(R"("type": "bsdf", "max_depth": 3)"), true},
-        {plain_scene(R"("type": "path", "max_depth": 0)"), true},
         {full_scene(R"("filter": "box")", R"("type": "normals")"), true}};
     for (const Device& device : test_devices())
         for (const auto& [text, has_aov] : scenes) {

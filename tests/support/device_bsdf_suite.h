@@ -1,9 +1,9 @@
-// Tests that every BSDF of BSDF_LIST passes, whatever it is: a new one needs no new test code for them. What is asked of
-// it are bsdf_evaluate, bsdf_pdf and bsdf_sample; its parameters, their ranges and whether it is a delta lobe come from
-// the parameter table of the materials.
+// Tests that every BSDF of BSDF_LIST passes, whatever it is: a new one needs no new test code for them. What is asked
+// of it are bsdf_evaluate, bsdf_pdf and bsdf_sample; its parameters, their ranges and whether it is a delta lobe come
+// from the parameter table of the materials.
 //
-// Of BSDFs with a density: the weight is f |cos| / pdf; the pdf of a sample is pdf(); the density is the Jacobian of the
-// sampling; reciprocity; the pdf integrates to 1; chi-square; albedo by sampling = by quadrature, at most 1; edges.
+// Of BSDFs with a density: the weight is f |cos| / pdf; the pdf of a sample is pdf(); the density is the Jacobian of
+// the sampling; reciprocity; the pdf integrates to 1; chi-square; albedo by sampling = by quadrature, at most 1; edges.
 // Of delta lobes: nothing to evaluate; unit directions; energy; the way back is the same.
 #pragma once
 
@@ -66,12 +66,10 @@ private:
 
 // Several materials in the lanes of one pack, by index into `cases`: words of every output of sampling, then of
 // evaluation towards wi.
-std::vector<std::vector<std::uint32_t>> sample_and_evaluate(const Device& device, const std::vector<BsdfCase>& cases,
-                                                            const std::vector<uint>& which,
-                                                            const std::vector<Direction>& wo,
-                                                            const std::vector<Direction>& wi,
-                                                            const std::vector<RandomWords>& random,
-                                                            std::uint32_t lanes);
+std::vector<std::vector<std::uint32_t>>
+sample_and_evaluate(const Device& device, const std::vector<BsdfCase>& cases, const std::vector<uint>& which,
+                    const std::vector<Direction>& wo, const std::vector<Direction>& wi,
+                    const std::vector<RandomWords>& random, std::uint32_t lanes);
 
 // The tests, each for one case.
 void check_weights(const Device& device, const BsdfCase& bsdf);

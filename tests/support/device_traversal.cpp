@@ -147,13 +147,20 @@ public:
     {
         const uint first = any_primitive(), second = any_primitive();
         switch (kind) {
-        case 0: return ray(anywhere(3), anywhere(1));
-        case 1: return along_axis(first);
-        case 2: return towards(anywhere(3), corner(first, 1, 0));
-        case 3: return towards(anywhere(3), corner(first, 0.5, 0.5));
-        case 4: return ray(corner(first, 1, 0), anywhere(1));
-        case 5: return from(ray(inside(first), anywhere(1)), first);
-        default: return between(first, second);
+        case 0:
+            return ray(anywhere(3), anywhere(1));
+        case 1:
+            return along_axis(first);
+        case 2:
+            return towards(anywhere(3), corner(first, 1, 0));
+        case 3:
+            return towards(anywhere(3), corner(first, 0.5, 0.5));
+        case 4:
+            return ray(corner(first, 1, 0), anywhere(1));
+        case 5:
+            return from(ray(inside(first), anywhere(1)), first);
+        default:
+            return between(first, second);
         }
     }
 
@@ -163,10 +170,14 @@ public:
         const float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
         const float bad[] = {nan, infinity, -infinity};
         const std::size_t place = random_() % 8;
-        if (place < 3) r.origin[place] = bad[random_() % 3];
-        else if (place < 6) r.direction[place - 3] = bad[random_() % 3];
-        else if (place == 6) r.t_max = random_() % 2 ? nan : -1.0f;
-        else r.direction[0] = r.direction[1] = r.direction[2] = random_() % 2 ? 0.0f : -0.0f;
+        if (place < 3)
+            r.origin[place] = bad[random_() % 3];
+        else if (place < 6)
+            r.direction[place - 3] = bad[random_() % 3];
+        else if (place == 6)
+            r.t_max = random_() % 2 ? nan : -1.0f;
+        else
+            r.direction[0] = r.direction[1] = r.direction[2] = random_() % 2 ? 0.0f : -0.0f;
         return r;
     }
 
@@ -195,9 +206,8 @@ private:
         const Primitive& p = primitives_[id];
         Place place{};
         for (int axis = 0; axis < 3; ++axis)
-            place.p[axis] = p.a.s[3] == PRIMITIVE_TRIANGLE
-                                ? (double{p.a.s[axis]} + p.b.s[axis] + p.c.s[axis]) / 3
-                                : p.a.s[axis] + std::max(p.b.s[0], p.c.s[0]) * uniform();
+            place.p[axis] = p.a.s[3] == PRIMITIVE_TRIANGLE ? (double{p.a.s[axis]} + p.b.s[axis] + p.c.s[axis]) / 3
+                                                           : p.a.s[axis] + std::max(p.b.s[0], p.c.s[0]) * uniform();
         return place;
     }
 
@@ -320,8 +330,7 @@ std::vector<uint> TraversalKernels::run(const std::string& kernel, const Travers
     // Upload, run, read.
     RenderSettings settings{};
     settings.accelerator = accelerator;
-    settings.primitive_count =
-        static_cast<uint>(kernel == "trace_leaf" ? leaves.size() : scene.primitives().size());
+    settings.primitive_count = static_cast<uint>(kernel == "trace_leaf" ? leaves.size() : scene.primitives().size());
     const Buffer<RenderSettings> settings_buffer(device_, "settings", {settings});
     const Buffer<BvhNode> nodes(device_, "nodes", scene.bvh().nodes);
     const Buffer<uint> leaf_primitives(device_, "leaf primitives", leaves);
@@ -351,8 +360,7 @@ TracedRays TraversalKernels::trace_leaf(const TraversalScene& scene, const std::
 
 std::vector<uint> TraversalKernels::visits(const TraversalScene& scene, const std::vector<TestRay>& rays)
 {
-    const std::vector<uint> words =
-        run("count_visits", scene, scene.bvh().leaf_primitives, ACCELERATOR_LBVH, rays, 1);
+    const std::vector<uint> words = run("count_visits", scene, scene.bvh().leaf_primitives, ACCELERATOR_LBVH, rays, 1);
     std::vector<uint> counts;
     for (std::size_t i = 0; i < rays.size(); ++i) counts.push_back(words[i * RESULT_WORDS]);
     return counts;

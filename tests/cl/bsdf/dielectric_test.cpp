@@ -1,110 +1,130 @@
-// Smooth glass: one of two directions, with Fresnel's probability, by Snell's law.
-#include "support/device_evaluate.h"
+// Smooth glass: Snell's law, Fresnel's shares, radiance scaled by the index of refraction squared.
+#include "support/device_bsdf_suite.h"
 
 #include <catch2/catch.hpp>
-
 #include <cmath>
-#include <random>
 
-using namespace etendue;
-
+namespace etendue
+{
 namespace
 {
-const DeviceFunctions GLASS({"bsdf/dielectric.h"},
-                            {{"sample", "float float float float uint -> float float float float float float mask", R"(
-    DielectricParameters p = {in0, white()};
-    RandomBlock random = {in4, in4, in4, in4};
-    BsdfSample s = dielectric_sample(p, vec3(in1, in2, in3), random);
-    out0 = s.wi.x; out1 = s.wi.y; out2 = s.wi.z; out3 = s.weight.y; out4 = s.pdf; out5 = s.radiance_scale; out6 = s.delta;)"},
-                             {"twin", "float float float -> float float", R"(
-    DielectricParameters p = {(Float)(1.5), white()};
-    Vec3 wo = vec3(in0, in1, in2);
-    out0 = dielectric_pdf(p, wo, negate3(wo)); out1 = dielectric_evaluate(p, wo, negate3(wo)).x;)"}});
-
-struct Directions {
-    std::vector<float> x, y, z;
-    void add(double cosine, double phi)
-    {
-        const double sine = std::sqrt(1.0 - cosine * cosine);
-        x.push_back(static_cast<float>(sine * std::cos(phi)));
-        y.push_back(static_cast<float>(sine * std::sin(phi)));
-        z.push_back(static_cast<float>(cosine));
-    }
-};
-
-double reflectance(double cos_i, double eta)
+BsdfCase glass(float ior)
 {
-    const double squared = eta * eta - 1.0 + cos_i * cos_i;
-    if (squared <= 0.0) return 1.0;
-    const double g = std::sqrt(squared);
-    const double s = (cos_i - g) / (cos_i + g), p = (eta * eta * cos_i - g) / (eta * eta * cos_i + g);
-    return 0.5 * (s * s + p * p);
+    return {BSDF_DIELECTRIC, {ior, 1, 1, 1}, "dielectric"};
+}
+
+// Lobe choices spread evenly over all integers: a mean over them is an integral.
+std::vector<RandomWords> all_lobes(uint count)
+{
+    const uint step = 0xffffffffu / count + 1;
+    std::vector<RandomWords> words;
+    for (uint i = 0; i < count; ++i) words.push_back({0, 0, i * step + step / 2, 0});
+    return words;
+}
+
+double index_beyond_over_before(float ior, const Direction& wo)
+{
+    return wo[2] > 0 ? double{ior} : 1 / double{ior};
+}
+
+// Share of unpolarised light that is reflected, by the tangent forms of Fresnel's equations.
+double reflected_share(double cosine, double eta)
+{
+    const double angle = std::acos(cosine), sine = std::sin(angle) / eta;
+    if (sine >= 1) return 1;
+    if (angle < 1e-3) return std::pow((eta - 1) / (eta + 1), 2);
+    const double beyond = std::asin(sine);
+    const double s = std::sin(angle - beyond) / std::sin(angle + beyond);
+    const double p = std::tan(angle - beyond) / std::tan(angle + beyond);
+    return (s * s + p * p) / 2;
 }
 } // namespace
 
-TEST_CASE("glass mirrors or refracts by Snell's law, with the weight of radiance", "[kernel]")
+TEST_CASE("glass reflects and refracts all light: the shares are Fresnel's, and add up to one")
 {
-    Directions wo;
-    std::vector<float> ior;
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> u(0.01, 1.0);
-    for (int i = 0; i < 4000; ++i) {
-        wo.add(i % 2 ? u(random) : -u(random), 6.28 * u(random));
-        ior.push_back(std::vector<float>{1.0f, 1.33f, 1.5f, 2.4f, 1 / 1.5f}[static_cast<std::size_t>(i) % 5]);
-    }
+    constexpr uint LOBES = 1 << 14;
     for (const Device& device : test_devices())
-        for (const std::uint32_t bits : {0u, 0xffffffffu}) {
-            const auto r =
-                GLASS.evaluate(device, "sample", {ior, wo.x, wo.y, wo.z, std::vector<std::uint32_t>(ior.size(), bits)});
-            const auto x = r.get<float>(0), y = r.get<float>(1), z = r.get<float>(2), weight = r.get<float>(3),
-                       scale = r.get<float>(5);
-            for (std::size_t i = 0; i < ior.size(); ++i) {
-                const double eta = wo.z[i] > 0 ? ior[i] : 1.0 / ior[i];
-                const double chance = reflectance(std::abs(wo.z[i]), eta);
-                INFO("ior " << ior[i] << " cos " << wo.z[i] << " bits " << bits);
-                REQUIRE(r.get<float>(4)[i] == 1.0f);
-                REQUIRE(r.get<std::uint32_t>(6)[i] == 1u);
-                const bool reflected = (z[i] > 0) == (wo.z[i] > 0);
-                // The lowest integer reflects where anything does, the highest refracts where anything does.
-                if (chance > 1e-9 && bits == 0) REQUIRE(reflected);
-                if (chance < 1.0 && bits != 0) REQUIRE(!reflected);
-                const double tangent = reflected ? -1.0 : -1.0 / eta;
-                CHECK(std::abs(x[i] - tangent * wo.x[i]) <= 4e-7);
-                CHECK(std::abs(y[i] - tangent * wo.y[i]) <= 4e-7);
-                // Near the critical angle the cosine is the root of a small difference: compare squares.
-                const double sine2 = tangent * tangent * (1.0 - static_cast<double>(wo.z[i]) * wo.z[i]);
-                CHECK(std::abs(z[i] * z[i] - (1.0 - sine2)) <= 1e-6);
-                CHECK(weight[i] == Approx(reflected ? 1.0 : 1.0 / (eta * eta)).epsilon(1e-6));
-                CHECK(scale[i] == Approx(reflected ? 1.0 : 1.0 / (eta * eta)).epsilon(1e-6));
+        for (const float ior : {1.33f, 1.5f, 2.4f, 1 / 1.5f, 100.0f})
+            for (const Direction& wo : standard_directions()) {
+                const double eta = index_beyond_over_before(ior, wo);
+                double reflected = 0, refracted = 0, share = 0;
+                for (const auto& s : DeviceBsdf(device, glass(ior)).sample({wo}, all_lobes(LOBES))) {
+                    const bool reflects = (s.wi[2] > 0) == (wo[2] > 0);
+                    share += reflects ? 1.0 / LOBES : 0;
+                    (reflects ? reflected : refracted) += s.weight[0] / LOBES * (reflects ? 1 : eta * eta);
+                }
+                CAPTURE(ior, wo[2]);
+                CHECK(reflected + refracted == Approx(1).epsilon(1e-6));
+                CHECK(share == Approx(reflected_share(std::abs(wo[2]), eta)).margin(1e-4).epsilon(1e-4));
+            }
+}
+
+TEST_CASE(
+    "glass mirrors exactly, refracts by Snell's law into the plane of incidence, and scales radiance by 1 / eta^2")
+{
+    for (const Device& device : test_devices())
+        for (const float ior : {1.33f, 1.5f, 2.4f, 1 / 1.5f})
+            for (const Direction& wo : standard_directions()) {
+                const double eta = index_beyond_over_before(ior, wo);
+                CAPTURE(ior, wo[2]);
+                for (const auto& s : DeviceBsdf(device, glass(ior)).sample({wo}, all_lobes(512))) {
+                    if ((s.wi[2] > 0) == (wo[2] > 0)) {
+                        const bool mirrored = s.wi == Direction{-wo[0], -wo[1], wo[2]};
+                        CHECK(mirrored);
+                        CHECK(s.radiance_scale == 1.0f);
+                        CHECK(s.weight[0] == Approx(1).epsilon(1e-6));
+                        continue;
+                    }
+                    CHECK(s.wi[0] == Approx(-wo[0] / eta).margin(1e-7).epsilon(3e-7));
+                    CHECK(s.wi[1] == Approx(-wo[1] / eta).margin(1e-7).epsilon(3e-7));
+                    CHECK(std::hypot(double{s.wi[0]}, double{s.wi[1]}, double{s.wi[2]}) == Approx(1).epsilon(1e-6));
+                    CHECK(s.radiance_scale == Approx(1 / (eta * eta)).epsilon(1e-6));
+                    CHECK(s.weight[0] == Approx(1 / (eta * eta)).epsilon(1e-6));
+                }
+            }
+}
+
+TEST_CASE("beyond the critical angle glass is a mirror, whatever the choice")
+{
+    for (const Device& device : test_devices())
+        for (const float cosine : {0.74f, 0.5f, 1e-3f, 1e-30f}) { // the critical cosine of 1.5 is 0.745
+            const Direction wo{std::sqrt(1 - cosine * cosine), 0, -cosine};
+            for (const auto& s : DeviceBsdf(device, glass(1.5f)).sample({wo}, all_lobes(4096))) {
+                const bool mirrored = s.wi == Direction{-wo[0], 0, wo[2]};
+                CHECK(mirrored);
+                CHECK(s.weight == std::array<float, 3>{1, 1, 1});
             }
         }
 }
 
-TEST_CASE("glass reflects as often as Fresnel says", "[kernel]")
+TEST_CASE("glass of the index of its surroundings is not there")
 {
-    constexpr std::size_t STRATA = 1u << 16;
-    std::vector<std::uint32_t> bits;
-    for (std::size_t i = 0; i < STRATA; ++i) bits.push_back(static_cast<std::uint32_t>(i << 16 | 0x8000));
     for (const Device& device : test_devices())
-        for (const double cosine : {1.0, 0.7, 0.3, 0.05, -0.9, -0.76}) {
-            Directions wo;
-            for (std::size_t i = 0; i < STRATA; ++i) wo.add(cosine, 0.5);
-            const auto z = GLASS.evaluate(device, "sample", {std::vector<float>(STRATA, 1.5f), wo.x, wo.y, wo.z, bits})
-                               .get<float>(2);
-            std::size_t reflected = 0;
-            for (const float w : z) reflected += (w > 0) == (cosine > 0);
-            const double expected = reflectance(std::abs(cosine), cosine > 0 ? 1.5 : 1.0 / 1.5);
-            // Stratified bits count to within one stratum.
-            CHECK(std::abs(static_cast<double>(reflected) / STRATA - expected) <= 1.5 / STRATA + 1e-6);
-        }
+        for (const float ior : {1.0f, std::nextafter(1.0f, 2.0f), std::nextafter(1.0f, 0.0f)})
+            for (const Direction& wo : standard_directions()) {
+                CAPTURE(ior - 1, wo[2]);
+                std::size_t reflected = 0;
+                for (const auto& s : DeviceBsdf(device, glass(ior)).sample({wo}, all_lobes(256))) {
+                    reflected += (s.wi[2] > 0) == (wo[2] > 0);
+                    CHECK(s.weight[0] == Approx(1).epsilon(1e-6));
+                    CHECK(std::abs(s.wi[0] + wo[0]) <= 1e-6);
+                    CHECK(std::abs(s.wi[1] + wo[1]) <= 1e-6);
+                    // At an index of 1 +- 1e-7 the direction bends by that over the cosine.
+                    const double allowed = ior == 1.0f ? 1e-7 : 1e-7 + 2e-7 / std::abs(wo[2]);
+                    CHECK(std::abs(std::abs(s.wi[2]) - std::abs(wo[2])) <= allowed);
+                }
+                // One in a thousand at a cosine of 0.001.
+                CHECK(reflected <= (ior == 1.0f || std::abs(wo[2]) > 0.005f ? 0 : 1));
+            }
 }
 
-TEST_CASE("no light sample can reach glass", "[kernel]")
+TEST_CASE("the tint multiplies both lobes")
 {
-    for (const Device& device : test_devices()) {
-        const auto r = GLASS.evaluate(device, "twin",
-                                      {std::vector<float>{0.6f}, std::vector<float>{0.0f}, std::vector<float>{0.8f}});
-        CHECK(r.get<float>(0)[0] == 0.0f);
-        CHECK(r.get<float>(1)[0] == 0.0f);
-    }
+    const BsdfCase tinted{BSDF_DIELECTRIC, {1.5f, 0.25f, 0.5f, 1.0f}, "dielectric"};
+    for (const Device& device : test_devices())
+        for (const auto& s : DeviceBsdf(device, tinted).sample({{0.8f, 0, 0.6f}}, all_lobes(256))) {
+            CHECK(s.weight[0] == Approx(0.25 * s.weight[2]).epsilon(1e-6));
+            CHECK(s.weight[1] == Approx(0.5 * s.weight[2]).epsilon(1e-6));
+        }
 }
+} // namespace etendue

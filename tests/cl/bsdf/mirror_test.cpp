@@ -1,38 +1,22 @@
-// The perfect mirror.
-#include "support/device_evaluate.h"
+// The perfect mirror: one direction, known exactly.
+#include "support/device_bsdf_suite.h"
 
 #include <catch2/catch.hpp>
 
-using namespace etendue;
-
-namespace
+namespace etendue
 {
-const DeviceFunctions MIRROR({"bsdf/mirror.h"},
-                             {{"sample", "float float float -> float float float float float mask float float", R"(
-    MirrorParameters p = {vec3((Float)(0.25), (Float)(0.5), (Float)(0.75))};
-    Vec3 wo = vec3(in0, in1, in2);
-    RandomBlock random = {(Uint)(7u), (Uint)(7u), (Uint)(7u), (Uint)(7u)};
-    BsdfSample s = mirror_sample(p, wo, random);
-    out0 = s.wi.x; out1 = s.wi.y; out2 = s.wi.z; out3 = s.weight.y; out4 = s.pdf; out5 = s.delta;
-    out6 = mirror_pdf(p, wo, s.wi); out7 = mirror_evaluate(p, wo, s.wi).y;)"}});
-} // namespace
-
-TEST_CASE("a mirror sends everything where the angle of reflection says, on both sides", "[kernel]")
+TEST_CASE("a mirror turns a direction round its normal, exactly, on both sides, and multiplies by its colour")
 {
-    const std::vector<float> x{0.6f, -0.6f, 0.0f, 1.0f}, y{0.0f, 0.48f, 0.0f, 0.0f}, z{0.8f, -0.64f, 1.0f, 0.0f};
+    const BsdfCase mirror{BSDF_MIRROR, {0.25f, 0.5f, 1.0f}, "mirror"};
     for (const Device& device : test_devices())
-        for (const std::uint32_t lanes : LANE_COUNTS) {
-            const auto r = MIRROR.evaluate(device, "sample", {x, y, z}, lanes);
-            for (std::size_t i = 0; i < x.size(); ++i) {
-                CHECK(r.get<float>(0)[i] == -x[i]);
-                CHECK(r.get<float>(1)[i] == -y[i]);
-                CHECK(r.get<float>(2)[i] == z[i]);
-                CHECK(r.get<float>(3)[i] == 0.5f);
-                CHECK(r.get<std::uint32_t>(5)[i] == 1u);
-                // A direction along the surface is on no side; no light sample reaches a delta lobe.
-                CHECK(r.get<float>(4)[i] == (z[i] == 0.0f ? 0.0f : 1.0f));
-                CHECK(r.get<float>(6)[i] == 0.0f);
-                CHECK(r.get<float>(7)[i] == 0.0f);
+        for (const Direction& wo : standard_directions())
+            for (const auto& s :
+                 DeviceBsdf(device, mirror).sample({wo}, {{0, 0, 0, 0}, {7, 1u << 31, 0xffffffffu, 9}})) {
+                CHECK(s.wi == Direction{-wo[0], -wo[1], wo[2]});
+                CHECK(s.weight == std::array<float, 3>{0.25f, 0.5f, 1.0f});
+                CHECK(s.pdf == 1.0f);
+                CHECK(s.delta);
+                CHECK(s.radiance_scale == 1.0f);
             }
-        }
 }
+} // namespace etendue

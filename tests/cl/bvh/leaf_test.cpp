@@ -1,4 +1,5 @@
 // The primitives of a leaf, and of a whole scene one after the other, against double precision and against each other.
+#include "math/vector.h"
 #include "src/bvh/primitive_sets.h"
 #include "support/device_evaluate.h"
 #include "support/device_traversal.h"
@@ -61,6 +62,18 @@ Primitive floor_at(double height)
 {
     return make_triangle(make_real4(0, height, 0), make_real4(1, height, 0), make_real4(0, height, 1));
 }
+
+// Within 3 degrees of the ray: distance and barycentrics magnify the rounding of floats.
+bool seen_edge_on(const Primitive& p, const TestRay& ray)
+{
+    Vec3 a, b, d;
+    for (int axis = 0; axis < 3; ++axis) {
+        a[axis] = static_cast<double>(p.b.s[axis]) - p.a.s[axis];
+        b[axis] = static_cast<double>(p.c.s[axis]) - p.a.s[axis];
+        d[axis] = ray.direction[axis];
+    }
+    return std::abs(glm::dot(glm::normalize(glm::cross(a, b)), glm::normalize(d))) < 0.05;
+}
 } // namespace
 
 TEST_CASE("testing every primitive finds the nearest triangle that double precision finds")
@@ -87,7 +100,8 @@ TEST_CASE("testing every primitive finds the nearest triangle that double precis
             bool close_call = false;
             for (uint k = 0; k < scene.primitives().size(); ++k) {
                 const ReferenceHit hit = reference_hit(scene.primitives()[k], rays[i]);
-                close_call |= std::abs(hit.least) < 1e-4;
+                close_call |=
+                    std::abs(hit.least) < 1e-4 || (hit.least > 0 && seen_edge_on(scene.primitives()[k], rays[i]));
                 if (hit.least < 0 || hit.t <= 0 || hit.t >= nearest.t) continue;
                 nearest = hit;
                 id = k;
@@ -178,7 +192,8 @@ TEST_CASE("a ray skips the primitive that it comes from and the one that it goes
 TEST_CASE("a ray that starts on a sphere meets it again only from inside")
 {
     const TraversalScene scene({make_sphere(0, 0, 0, 1)});
-    const std::vector<TestRay> rays{{{0, 0, 1}, {0, 0, -1}, INFINITE, 0}, {{0, 0, 1}, {0, 0, 1}, INFINITE, 0},
+    const std::vector<TestRay> rays{{{0, 0, 1}, {0, 0, -1}, INFINITE, 0},
+                                    {{0, 0, 1}, {0, 0, 1}, INFINITE, 0},
                                     {{0, 0, 1}, {0.6f, 0, -0.8f}, INFINITE, 0}};
     for (const Device& device : test_devices()) {
         const TracedRays found = TraversalKernels(device).trace_leaf(scene, rays, {0});

@@ -27,11 +27,11 @@ std::vector<Primitive> icosphere(int levels)
         return Vertex{v[0] / length, v[1] / length, v[2] / length};
     };
     const double g = (1 + std::sqrt(5.0)) / 2;
-    const std::vector<Vertex> v{{-1, g, 0}, {1, g, 0},   {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+    const std::vector<Vertex> v{{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                                 {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
-    const int faces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9},  {5, 11, 4},
-                              {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6},  {3, 6, 8},
-                              {3, 8, 9},  {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+    const int faces[20][3] = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                              {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                              {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
     std::vector<std::array<Vertex, 3>> mesh;
     for (const auto& f : faces) mesh.push_back({unit(v[f[0]]), unit(v[f[1]]), unit(v[f[2]])});
     for (int level = 0; level < levels; ++level) {
@@ -57,7 +57,9 @@ std::vector<Primitive> soup(std::size_t count)
     std::mt19937 random(3);
     std::uniform_real_distribution<double> u(-1, 1);
     std::vector<Primitive> set;
-    const auto point = [&](double scale) { return std::array<double, 3>{scale * u(random), scale * u(random), scale * u(random)}; };
+    const auto point = [&](double scale) {
+        return std::array<double, 3>{scale * u(random), scale * u(random), scale * u(random)};
+    };
     for (std::size_t i = 0; i < count; ++i) {
         const auto p = point(1), e = point(0.3), f = point(0.3);
         set.push_back(make_triangle(make_real4(p[0], p[1], p[2]), make_real4(p[0] + e[0], p[1] + e[1], p[2] + e[2]),
@@ -230,8 +232,8 @@ TEST_CASE("the tree finds what testing every primitive finds, bit for bit, at ev
             std::vector<TestRay> tied = tied_rays(rays, expected);
             tied.resize(std::min(tied.size(), c.rays / 4));
             if (!tied.empty()) check_tree(kernels, scene, tied);
-            hits[c.name] = static_cast<std::size_t>(
-                std::count_if(expected.primitive.begin(), expected.primitive.end(), [](uint id) { return id != NO_INDEX; }));
+            hits[c.name] = static_cast<std::size_t>(std::count_if(expected.primitive.begin(), expected.primitive.end(),
+                                                                  [](uint id) { return id != NO_INDEX; }));
             total += rays.size() + tied.size();
         }
         CHECK(total >= 100000);

@@ -165,8 +165,11 @@ TEST_CASE("a box is met with the same bits at every number of lanes")
     for (int i = 0; i < 1001; ++i) rays.add(randoms.point(), randoms.direction());
     for (Device& device : test_devices()) {
         const Entries one = enter_box(device, {-1, -0.5l, 0}, {0.5l, 0.5l, 0.5l}, rays, {}, 1);
-        const Entries sixteen = enter_box(device, {-1, -0.5l, 0}, {0.5l, 0.5l, 0.5l}, rays, {}, 16);
-        CHECK(one.hit == sixteen.hit);
-        CHECK(one.t == sixteen.t);
+        for (const std::uint32_t lanes : LANE_COUNTS) {
+            const Entries several = enter_box(device, {-1, -0.5l, 0}, {0.5l, 0.5l, 0.5l}, rays, {}, lanes);
+            CAPTURE(lanes);
+            CHECK(one.hit == several.hit);
+            CHECK(one.t == several.t);
+        }
     }
 }

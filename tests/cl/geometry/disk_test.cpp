@@ -106,8 +106,12 @@ TEST_CASE("a disk is met with the same bits at every number of lanes")
     const Primitive disk = make_disk({0.1l, 0.2l, 0.3l}, unit({1, 2, 3}), 0.7l);
     const RayColumns rays = rays_around(disk, 1001);
     for (Device& device : test_devices()) {
-        const Found one = meet(device, disk, rays, 1), sixteen = meet(device, disk, rays, 16);
-        CHECK(one.hit == sixteen.hit);
-        CHECK(one.t == sixteen.t);
+        const Found one = meet(device, disk, rays, 1);
+        for (const std::uint32_t lanes : LANE_COUNTS) {
+            const Found several = meet(device, disk, rays, lanes);
+            CAPTURE(lanes);
+            CHECK(one.hit == several.hit);
+            CHECK(one.t == several.t);
+        }
     }
 }

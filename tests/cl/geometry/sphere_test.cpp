@@ -166,9 +166,12 @@ TEST_CASE("a sphere is met with the same bits at every number of lanes")
     for (int i = 0; i < 1001; ++i) rays.add(3.0l * randoms.direction(), -1.0l * randoms.direction());
     for (Device& device : test_devices()) {
         const Found one = meet(device, make_sphere({}, 1), rays, false, 1);
-        const Found sixteen = meet(device, make_sphere({}, 1), rays, false, 16);
-        CHECK(one.hit == sixteen.hit);
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            if (one.hit[i]) CHECK(one.t[i] == sixteen.t[i]);
+        for (const std::uint32_t lanes : LANE_COUNTS) {
+            const Found several = meet(device, make_sphere({}, 1), rays, false, lanes);
+            CAPTURE(lanes);
+            CHECK(one.hit == several.hit);
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                if (one.hit[i]) CHECK(one.t[i] == several.t[i]);
+        }
     }
 }

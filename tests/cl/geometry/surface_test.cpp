@@ -225,6 +225,10 @@ TEST_CASE("a surface has the same bits at every number of lanes")
     const Hits hits = hits_of_triangle(501);
     const std::vector<real4> normals{make_real4(0, 0, 1), make_real4(0, 1, 0), make_real4(1, 0, 0)};
     for (Device& device : test_devices())
-        CHECK(surfaces_of(device, TILTED, hits, {7, 9, 0, 0}, normals, 1).out.outputs ==
-              surfaces_of(device, TILTED, hits, {7, 9, 0, 0}, normals, 16).out.outputs);
+        for (const std::uint32_t lanes : LANE_COUNTS) {
+            const bool same_bits = surfaces_of(device, TILTED, hits, {7, 9, 0, 0}, normals, 1).out.outputs ==
+                                   surfaces_of(device, TILTED, hits, {7, 9, 0, 0}, normals, lanes).out.outputs;
+            CAPTURE(lanes);
+            CHECK(same_bits);
+        }
 }

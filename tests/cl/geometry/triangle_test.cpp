@@ -222,10 +222,14 @@ TEST_CASE("a triangle is met with the same bits at every number of lanes")
     const std::vector<Primitive> mesh = bumpy_sphere();
     const RayColumns rays = rays_at(mesh, {0.3l, -0.2l, 0.41l}, 501);
     for (Device& device : test_devices()) {
-        const Closest one = closest(device, mesh, rays, 1), sixteen = closest(device, mesh, rays, 16);
-        CHECK(one.hits == sixteen.hits);
-        CHECK(one.t == sixteen.t);
-        CHECK(one.b1 == sixteen.b1);
-        CHECK(one.b2 == sixteen.b2);
+        const Closest one = closest(device, mesh, rays, 1);
+        for (const std::uint32_t lanes : LANE_COUNTS) {
+            const Closest several = closest(device, mesh, rays, lanes);
+            CAPTURE(lanes);
+            CHECK(one.hits == several.hits);
+            CHECK(one.t == several.t);
+            CHECK(one.b1 == several.b1);
+            CHECK(one.b2 == several.b2);
+        }
     }
 }

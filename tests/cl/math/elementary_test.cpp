@@ -26,10 +26,10 @@ TEST_CASE("sine and cosine of 2 pi t err by less than 2 u over their whole range
 {
     // Equally spaced numbers of [-2, 2], numbers of every size, and the neighbours of every eighth of a turn.
     std::vector<float> t;
-    for (int i = -(1 << 19); i <= 1 << 19; ++i) t.push_back(static_cast<float>(std::ldexp(i, -18)));
+    for (int i = -(1 << 17); i <= 1 << 17; ++i) t.push_back(static_cast<float>(std::ldexp(i, -16)));
     std::mt19937 random(1);
     std::uniform_real_distribution<float> u(0, 1);
-    for (int i = 0; i < 1 << 20; ++i) t.push_back(u(random));
+    for (int i = 0; i < 1 << 18; ++i) t.push_back(u(random));
     for (int i = 0; i < 1 << 12; ++i) t.push_back(std::ldexp(u(random), -static_cast<int>(random() % 126)));
     for (int eighth = -16; eighth <= 16; ++eighth) {
         float below = static_cast<float>(eighth) / 8.0f, above = below;
@@ -81,8 +81,7 @@ TEST_CASE("the logarithm errs by less than 2 u relatively, and less than u absol
     for (int e = -126; e <= 127; ++e)
         for (int i = 0; i < 512; ++i) x.push_back(std::ldexp(u(random), e));
     // What sampling asks for: 1 - k 2^-24.
-    for (int k = 0; k < 1 << 20; ++k)
-        x.push_back(1.0f - std::ldexp(static_cast<float>(1 + 16 * k % ((1 << 24) - 1)), -24));
+    for (int k = 0; k < 1 << 18; ++k) x.push_back(1.0f - std::ldexp(static_cast<float>(1 + 64 * k), -24));
     for (int k = 1; k < 4096; ++k) {
         x.push_back(1.0f - std::ldexp(static_cast<float>(k), -24));
         x.push_back(1.0f + std::ldexp(static_cast<float>(k), -23));

@@ -27,6 +27,8 @@ const DeviceFunctions
                    "out6 = (Float)(INFINITE);"},
               });
 
+using Words = std::vector<std::uint32_t>;
+
 constexpr float INF = std::numeric_limits<float>::infinity();
 constexpr float NOT_A_NUMBER = std::numeric_limits<float>::quiet_NaN();
 
@@ -103,6 +105,20 @@ TEST_CASE("numbers that are not finite are known by their bits")
         for (const std::uint32_t lanes : LANE_COUNTS)
             CHECK(functions.evaluate(device, "choices", {x, x}, lanes).get<std::uint32_t>(5) ==
                   std::vector<std::uint32_t>{1, 1, 1, 1, 1, 0, 0, 0, 0, 0});
+}
+
+TEST_CASE("signs and magnitudes are taken from the bits, those of infinities and of no number too")
+{
+    const Words a{0x7fc00000u, 0xffc00001u, 0x7f800000u, 0xff800000u, 0x00000000u, 0x80000000u, 0x3f800000u};
+    const Words sign{0xffc00000u, 0x3f800000u, 0x80000000u, 0x7fc00000u, 0xff800000u, 0x00000001u, 0x80000001u};
+    for (Device& device : test_devices())
+        for (const std::uint32_t lanes : LANE_COUNTS) {
+            const auto out = functions.evaluate(device, "choices", {a, sign}, lanes).outputs;
+            for (std::size_t i = 0; i < a.size(); ++i) {
+                CHECK(out[2][i] == (a[i] & 0x7fffffffu));
+                CHECK(out[3][i] == ((a[i] & 0x7fffffffu) | (sign[i] & 0x80000000u)));
+            }
+        }
 }
 
 TEST_CASE("least and greatest, magnitude, sign and root agree with the language of the host")

@@ -1,5 +1,5 @@
 // Pixel filters: where their samples lie, and the moments of each.
-#include "support/device_evaluate.h"
+#include "support/device_lanes.h"
 
 #include "util/statistics.h"
 
@@ -106,4 +106,12 @@ TEST_CASE("filter samples from the ends of the unit square stay within the radiu
             INFO(filter.name);
             CHECK(outside == 0);
         }
+}
+
+TEST_CASE("filter samples have the same bits at every number of lanes")
+{
+    const std::vector<float> u = uniform_floats(5), v = uniform_floats(6);
+    for (Device& device : test_devices())
+        for (const Filter& filter : filters())
+            evaluate_in_all_lanes(functions, device, "offset", {std::vector<RenderSettings>{filter.settings}, u, v});
 }

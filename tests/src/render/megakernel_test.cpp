@@ -105,6 +105,21 @@ TEST_CASE("a second launch goes on with the sums of the first", "[render]")
     }
 }
 
+TEST_CASE("samples of other numbers, in their low or high word, are others", "[render]")
+{
+    // Where a ray passes through its pixel is random, and with it the depth that it meets.
+    for (const Device& device : test_devices()) {
+        Bench bench(device, true);
+        const auto depth = [&](std::uint32_t first_sample, std::uint32_t first_sample_high) {
+            return bench.trace({3, 3, 1, 1, first_sample, first_sample_high, 1, 0}).aovs[0].albedo.s[3];
+        };
+        const float first = depth(0, 0);
+        CHECK(depth(0, 0) == first);
+        for (const std::uint32_t sample : {1u, 63u, 64u, 128u, ~0u}) CHECK(depth(sample, 0) != first);
+        CHECK(depth(0, 1) != first);
+    }
+}
+
 TEST_CASE("samples that are infinite or negative count as zero and are told with their first place", "[render]")
 {
     struct Fault {
