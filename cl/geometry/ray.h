@@ -33,10 +33,11 @@ STATIC Mask is_valid_ray(Ray ray)
     return is_finite3(ray.origin) & is_finite3(ray.direction) & (longest > 0.0) & (ray.t_max >= 0.0);
 }
 
-/* Every candidate passes here: a nearer one is taken, and of equal ones that of the lowest primitive. */
+/* Every candidate passes here: a nearer one is taken, and of equal ones that of the lowest primitive; an
+ * infinite distance (from determinants that underflow) is no hit. */
 STATIC Mask hit_accept(Hit hit, Float t, Uint primitive)
 {
-    return (t > 0.0) & ((t < hit.t) | ((t == hit.t) & (primitive < hit.primitive)));
+    return (t > 0.0) & (t < (Float)(INFINITE)) & ((t < hit.t) | ((t == hit.t) & (primitive < hit.primitive)));
 }
 STATIC void hit_update(Hit* hit, Mask accepted, Float t, Uint primitive, Float b1, Float b2)
 {

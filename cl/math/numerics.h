@@ -81,7 +81,7 @@ STATIC Mask is_finite(Float x)
 /* sqrt of what is zero or more but for rounding */
 STATIC Float sqrt_of(Float x)
 {
-    return sqrt(max_of(x, (Float)(0.0)));
+    return sqrt(x < 0.0 ? (Float)(0.0) : x);
 }
 
 /* a b - c d with the right sign and an error below 1.5 ulp (Kahan; Jeannerod, Louvet, Muller 2013). */

@@ -233,8 +233,10 @@ DeviceResults DeviceFunctions::evaluate(const Device& device, const std::string&
     const Buffer<std::uint32_t> offsets(device, "test offsets", packed.offsets);
     const Buffer<std::uint32_t> words(device, "test arguments", packed.words);
     const Buffer<std::uint32_t> results(device, "test results", signature.outputs.size() * count);
-    kernel.run((count + features.lanes - 1) / features.lanes, 0, static_cast<std::uint32_t>(count), offsets, words,
-               results);
+    // One item a group on a CPU: PoCL keeps the private arrays of a whole group on one thread's stack.
+    const std::size_t local_size = device.is_cpu() ? 1 : 0;
+    kernel.run((count + features.lanes - 1) / features.lanes, local_size, static_cast<std::uint32_t>(count), offsets,
+               words, results);
     return {split(results.read(), signature.outputs.size())};
 }
 } // namespace etendue

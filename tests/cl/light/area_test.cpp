@@ -38,9 +38,10 @@ double solid_angle(const Primitive& p, const Point& from)
         return sine >= 1 ? 4 * PI : 2 * PI * sine * sine / (1 + std::sqrt(1 - sine * sine));
     }
     if (p.a.s[3] == PRIMITIVE_TRIANGLE) return triangle_solid_angle(a, point(p.b) - from, point(p.c) - from);
-    const auto [s, t] = complete_frame(unit(point(p.b)));
+    const std::array<Point, 2> frame = complete_frame(unit(point(p.b)));
     const auto rim = [&](int i) {
-        return a + p.c.s[0] * (std::cos(2 * PI * i / 8192) * s + std::sin(2 * PI * i / 8192) * t);
+        const double angle = 2 * PI * i / 8192;
+        return a + p.c.s[0] * (std::cos(angle) * frame[0] + std::sin(angle) * frame[1]);
     };
     double sum = 0;
     for (int i = 0; i < 8192; ++i) sum += triangle_solid_angle(a, rim(i), rim(i + 1));

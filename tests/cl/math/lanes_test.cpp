@@ -7,6 +7,7 @@
 
 #include <bit>
 #include <limits>
+#include <numeric>
 #include <random>
 
 using namespace etendue;
@@ -60,6 +61,27 @@ TEST_CASE("every pattern of lanes is seen by all questions about a mask")
             CAPTURE(lanes);
             CHECK(wrong == 0);
             CHECK(wrong_numbers == 0);
+        }
+}
+
+TEST_CASE("devices without an instruction for it gather the same bits of a mask")
+{
+    // Work-item p sets the lanes of the bits of p.
+    const std::string text = "#undef __AVX512DQ__\n#undef __AVX512VL__\n#include \"math/lanes.h\"\n"
+                             "kernel void gather_bits(global uint* out)\n{\n"
+                             "    uint p = (uint)get_global_id(0);\n"
+                             "    out[p] = lane_bits((((Uint)(p) >> lane_numbers()) & 1u) != 0u);\n}\n";
+    for (Device& device : test_devices())
+        for (const std::uint32_t lanes : LANE_COUNTS) {
+            const Program program =
+                Program::from_text(device, "gather bits", text, Specialization::everything(lanes, 32).build_options());
+            std::vector<std::uint32_t> expected(std::size_t{1} << lanes);
+            std::iota(expected.begin(), expected.end(), 0u);
+            Buffer<std::uint32_t> out(device, "out", expected.size());
+            Kernel(program, "gather_bits").run(expected.size(), 0, out);
+            const bool same_bits = out.read() == expected;
+            CAPTURE(lanes);
+            CHECK(same_bits);
         }
 }
 

@@ -177,6 +177,20 @@ TEST_CASE("primitives are triangles, spheres, disks, whatever the order of shape
         CHECK(g.parameters[g.materials[1].first_parameter + i] == static_cast<float>(scene.materials[1].parameters[i]));
 }
 
+TEST_CASE("lights of every shape are chosen by radiance times area")
+{
+    Scene scene = scene_of(RectangleShape{{2, 3}}, placed(1, {0, 5, 0}));
+    scene.shapes.push_back(make_shape(SphereShape{0.5}, placed(2, {3, 0, 0})));
+    scene.shapes.push_back(make_shape(DiskShape{1.5}));
+    for (ShapeDescription& shape : scene.shapes) shape.emission = Emission{Vec3(7), false};
+    const Geometry g = make_geometry(scene);
+    REQUIRE(g.lights.size() == 4);
+    const double pi = std::acos(-1.0);
+    const double areas[] = {3.0, 3.0, 4 * pi, 2.25 * pi};
+    for (std::size_t i = 0; i < 4; ++i)
+        CHECK(static_cast<double>(g.lights[i].radiance.s[3]) == Approx(0.9 * areas[i] / (6 + 6.25 * pi) + 0.025));
+}
+
 TEST_CASE("triangles face the side of their vertex normals, and flat ones keep none")
 {
     const auto surface = [](const std::vector<Vec3>& normals, bool flip_normals, const Mat4& transform = Mat4(1.0)) {

@@ -124,6 +124,7 @@ TEST_CASE("a mesh file that cannot be one is refused by name")
     CHECK_THROWS_AS(read_mesh(missing), FileError);
     CHECK_THROWS_WITH(read_mesh(missing), missing + ": there is no such file.");
     CHECK_THROWS_AS(read_mesh(folder.path().string()), FileError);
+    CHECK_THROWS_WITH(read_mesh("/dev/zero"), "/dev/zero: is a device or a pipe, not a mesh file.");
     CHECK_THROWS_WITH(parse_mesh("", "a.obj"), "a.obj: is empty.");
     CHECK_THROWS_WITH(parse_mesh("plywood", "a.ply"), "a.ply: is no PLY file: its first line is not \"ply\".");
     CHECK_THROWS_WITH(parse_mesh("solid", "a.stl"), "a.stl: mesh format \".stl\" is not known; there are: .obj, .ply.");

@@ -110,3 +110,18 @@ TEST_CASE("corners that single precision cannot tell apart are one corner, slive
     CHECK(dropped({3, 2, 0}) == 0);
     CHECK(dropped({0, 2, 5}) == 0);
 }
+
+TEST_CASE("triangles keep their own normals when others are dropped before them")
+{
+    const Scene scene = scene_of(InlineTriangles{});
+    PlacedMesh placed;
+    placed.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    placed.mesh.normals = {{0, 0, 1}, {1, 0, 0}};
+    placed.mesh.indices = {{0, 1, 1}, {0, 1, 2}};
+    placed.mesh.normal_indices = {{0, 0, 0}, {1, 1, 0}};
+    PlacedShapes shapes;
+    shapes.meshes.push_back(placed);
+    CHECK(drop_flat(shapes, scene, true, {}) == 1);
+    CHECK(shapes.triangle_count() == 1);
+    CHECK(shapes.meshes[0].mesh.normal_indices == std::vector<glm::u32vec3>{{1, 1, 0}});
+}

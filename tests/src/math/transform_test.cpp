@@ -70,6 +70,7 @@ TEST_CASE("a similarity is told from every other matrix and gives its scale")
           Approx(1e-30).epsilon(1e-15));
     CHECK_FALSE(similarity_scale(columns({1, 0, 0}, {0, 1, 0}, {0, 0, 1.001})).has_value());
     CHECK_FALSE(similarity_scale(columns({1, 0, 0}, {0.001, 1, 0}, {0, 0, 1})).has_value());
+    CHECK_FALSE(similarity_scale(columns({1, 0, 0}, {0.6, 0.8, 0}, {0, 0, 1})).has_value());
     CHECK_FALSE(similarity_scale(columns({0, 0, 0}, {0, 0, 0}, {0, 0, 0})).has_value());
     CHECK_FALSE(similarity_scale(columns({NAN, 0, 0}, {0, 1, 0}, {0, 0, 1})).has_value());
 }
