@@ -126,6 +126,7 @@ Renderer::~Renderer() = default;
 void Renderer::render(Film& film, const RenderLimits& limits)
 {
     watch_.restart();
+    paused_seconds_ = 0.0;
     const PixelRect crop = film.crop();
     crop_pixels_ = static_cast<std::uint64_t>(crop.width) * static_cast<std::uint64_t>(crop.height);
     std::uint64_t done = 0;
@@ -134,7 +135,7 @@ void Renderer::render(Film& film, const RenderLimits& limits)
         Pass pass = next_pass(done, limits.samples_per_pixel);
         if (limits.seconds && done > 0) {
             // Take as many samples as the last pass says will fit.
-            const double fitting = (*limits.seconds - watch_.seconds()) / seconds_per_sample;
+            const double fitting = (*limits.seconds - render_seconds()) / seconds_per_sample;
             if (fitting < 1.0) break;
             pass.sample_count = static_cast<std::uint32_t>(std::min<double>(pass.sample_count, fitting));
         }
@@ -144,10 +145,16 @@ void Renderer::render(Film& film, const RenderLimits& limits)
         seconds_per_sample =
             (pass_watch.seconds() - (report_.first_launch_seconds - first_launch_before)) / pass.sample_count;
         done += pass.sample_count;
+        if (limits.stop()) break;
+        const PassEnd end{done, render_seconds()};
+        Stopwatch pause;
+        const bool go_on = limits.after_pass(end);
+        paused_seconds_ += pause.seconds();
+        if (!go_on) break;
     }
     report_.samples_per_pixel = film.min_samples();
     report_.interrupted = limits.stop();
-    report_.render_seconds = watch_.seconds();
+    report_.render_seconds = render_seconds();
     for (const auto& worker : workers_) {
         DeviceReport& r = worker->report;
         r.memory = worker->device.memory();
@@ -238,7 +245,7 @@ void Renderer::tell(const RenderLimits& limits)
     progress.fraction = static_cast<double>(samples_done_) / static_cast<double>(crop_pixels_) /
                         static_cast<double>(limits.samples_per_pixel);
     if (limits.seconds)
-        progress.fraction = std::max(progress.fraction, std::min(watch_.seconds() / *limits.seconds, 1.0));
+        progress.fraction = std::max(progress.fraction, std::min(render_seconds() / *limits.seconds, 1.0));
     progress.rays = report_.rays();
     limits.progress(progress);
 }

@@ -35,6 +35,12 @@ struct RenderProgress {
     std::uint64_t rays = 0;
 };
 
+// What is there after a pass: every pixel of the film has the same number of samples.
+struct PassEnd {
+    std::uint64_t samples_per_pixel = 0;
+    double render_seconds = 0.0; // since render() began, without the time spent in after_pass
+};
+
 // When to stop, and whom to tell.
 struct RenderLimits {
     std::uint64_t samples_per_pixel = 1;
@@ -42,6 +48,9 @@ struct RenderLimits {
     std::function<bool()> stop = [] { return false; }; // asked before each launch, from any worker's thread
     std::function<void(const RenderProgress&)> progress = [](const RenderProgress&) {
     }; // after each launch, one at a time
+    // Asked after each pass that was not stopped, while nothing runs and the clock stands still: whether to go on.
+    // Passes end at 1, 2, 4, ... samples up to SAMPLES_PER_BLOCK, then at every multiple of it.
+    std::function<bool(const PassEnd&)> after_pass = [](const PassEnd&) { return true; };
 };
 
 class Renderer
@@ -73,6 +82,8 @@ private:
     RenderReport report_;
     std::mutex mutex_; // guards report_ and progress while workers run
     std::uint64_t samples_done_ = 0, crop_pixels_ = 0;
-    Stopwatch watch_; // since render() began
+    double render_seconds() const { return watch_.seconds() - paused_seconds_; } // since render() began
+    Stopwatch watch_;
+    double paused_seconds_ = 0.0; // in after_pass
 };
 } // namespace etendue

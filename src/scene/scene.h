@@ -120,6 +120,35 @@ struct EnvironmentDescription {
     SourceLocation location;
 };
 
+// One thing that a scene says of its own picture; etendue check judges it.
+struct ExpectedFact {
+    enum class Rule { exact, round, bound, count, stat } rule = Rule::round;
+    enum class Subject {
+        pixels,            // every pixel (with one sample per pixel: every sample)
+        mean,              // of all pixels
+        relative_variance, // of one sample: variance / mean^2
+        same,              // as the picture of another scene
+        load_error,        // loading fails, and the message contains `text`
+        warning            // a warning contains `text`
+    } subject = Subject::pixels;
+    std::vector<std::string> value;     // formulas, one for all channels or three; not for load_error, warning and same
+    std::string tolerance;              // a formula: roundings (round), a relative tolerance (relative_variance, same)
+    std::string text;                   // what a message contains
+    std::string other;                  // same: a scene file beside this one, or "" for this scene ...
+    std::vector<std::string> overrides; // ... with these path=value
+    SourceLocation location;
+};
+
+// The "expect" block: a scene that knows what its picture must be.
+struct Expectation {
+    std::string group = "stiff";                            // or "analytic"
+    bool is_long = false;                                   // only with --long
+    std::string because;                                    // the derivation in one line
+    std::vector<std::pair<std::string, std::string>> where; // named formulas, in order
+    std::vector<ExpectedFact> facts;
+    SourceLocation location;
+};
+
 struct Scene {
     std::string file;   // as the user named it
     std::string folder; // for the files it names
@@ -133,5 +162,6 @@ struct Scene {
     std::vector<MaterialDescription> materials;
     std::vector<ShapeDescription> shapes; // lights[] of the file are shapes that emit, after the shapes[]
     std::optional<EnvironmentDescription> environment;
+    std::optional<Expectation> expectation;
 };
 } // namespace etendue
