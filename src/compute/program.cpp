@@ -20,6 +20,7 @@ std::string all_options(const DeviceInfo& device, const std::string& options)
     std::string all = base_build_options;
     if (options.find("-DREAL_IS_DOUBLE=1") == std::string::npos) all += " -cl-single-precision-constant";
     if (device.correctly_rounded_divide) all += " -cl-fp32-correctly-rounded-divide-sqrt";
+    if (const std::string extra = environment("ETENDUE_CL_OPTIONS"); !extra.empty()) all += ' ' + extra;
     return options.empty() ? all : all + ' ' + options;
 }
 

@@ -11,6 +11,7 @@ namespace etendue
 {
 // Always: strict floating point, so never a fast-math flag (the source itself forbids contraction, kernel_source.h).
 // The float build adds -cl-single-precision-constant, a device that can adds -cl-fp32-correctly-rounded-divide-sqrt.
+// ETENDUE_CL_OPTIONS of the environment comes last: like ETENDUE_CL_DIR it is for developing and for tests.
 inline constexpr const char* base_build_options = "-cl-std=CL1.2";
 
 // Where compiled kernels are kept between runs, or nothing. Default: $ETENDUE_CACHE_DIR, else $XDG_CACHE_HOME/etendue,
