@@ -1,6 +1,8 @@
 // Structs between float and double.
 #include "render/precision.h"
 
+#include "math/rounding.h"
+
 #include <cstddef>
 #include <cstring>
 
@@ -99,13 +101,10 @@ fp64::PathVertex widen(const PathVertex& v)
 
 PixelBlock narrow(const fp64::PixelBlock& block)
 {
-    PixelBlock rounded{narrow4(block.sum), {}, narrow4(block.m2)};
-    for (int c = 0; c < 3; ++c) {
-        const double sum = block.sum.s[c] - block.compensation.s[c];
-        rounded.sum.s[c] = static_cast<real>(sum);
-        rounded.compensation.s[c] = static_cast<real>(static_cast<double>(rounded.sum.s[c]) - sum);
-    }
-    return rounded;
+    const auto sum = [&](int c) { return block.sum.s[c] - block.compensation.s[c]; };
+    const auto lost = [&](int c) { return rounded_to_float(sum(c)) - sum(c); };
+    return {make_real4(sum(0), sum(1), sum(2), block.sum.s[3]), make_real4(lost(0), lost(1), lost(2)),
+            narrow4(block.m2)};
 }
 
 PixelAov narrow(const fp64::PixelAov& aov)
