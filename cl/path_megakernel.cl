@@ -14,13 +14,7 @@ kernel void path_megakernel(SCENE_ARGUMENTS, WorkUnit unit, global SampleResult*
     RayCounts rays;
     for (int kind = 0; kind < COUNT_KINDS; kind++) rays.counts[kind] = 0ul;
 
-    PathState path;
-    path.active = to_mask(false);
-    path.ray.origin = path.ray.direction = path.throughput = path.radiance = black();
-    path.delta = to_mask(false);
-    path.pdf = path.radiance_scale = (Float)(1.0);
-    path.vertices = path.accident = (Uint)(0u);
-    path.ray.from = (Uint)(NO_INDEX);
+    PathState path = idle_path();
     Uint index = (Uint)(NO_INDEX);
     Mask idle = to_mask(true);
 

@@ -32,6 +32,18 @@ typedef struct RayCounts {
     ulong counts[COUNT_KINDS];
 } RayCounts;
 
+/* No path in any lane. */
+STATIC PathState idle_path(void)
+{
+    PathState path;
+    path.active = path.delta = to_mask(false);
+    path.ray.origin = path.ray.direction = path.throughput = path.radiance = black();
+    path.pdf = path.radiance_scale = (Float)(1.0);
+    path.vertices = path.accident = (Uint)(0u);
+    path.ray.from = (Uint)(NO_INDEX);
+    return path;
+}
+
 /* Draw of a role at the current vertex. */
 STATIC RandomBlock path_random(PathState* path, uint role)
 {

@@ -23,7 +23,12 @@ typedef int Mask;
 #define to_uint(x) ((Uint)(x))
 #define int_bits(x) as_int(x)
 #define uint_bits(x) as_uint(x)
+#if REAL_IS_DOUBLE
+/* The bits of a Float do not fit a Uint: int_bits and uint_bits are for the integers only. */
+#define ulong_bits(x) as_ulong(x)
+#else
 #define from_bits(x) as_float(x)
+#endif
 #define to_mask(m) ((Mask)(m))
 
 STATIC Mask not(Mask m)

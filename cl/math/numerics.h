@@ -58,10 +58,6 @@ STATIC Float copy_sign(Float magnitude, Float sign_of)
 {
     return copysign(magnitude, sign_of);
 }
-STATIC Mask is_finite(Float x)
-{
-    return isfinite(x);
-}
 #else
 STATIC Float abs_of(Float x)
 {
@@ -71,12 +67,17 @@ STATIC Float copy_sign(Float magnitude, Float sign_of)
 {
     return from_bits((uint_bits(magnitude) & 0x7fffffffu) | (uint_bits(sign_of) & 0x80000000u));
 }
+#endif
+
 /* Ask the bits: compilers may assume that no comparison meets a NaN. */
 STATIC Mask is_finite(Float x)
 {
+#if REAL_IS_DOUBLE
+    return (ulong_bits(x) & 0x7ffffffffffffffful) < 0x7ff0000000000000ul;
+#else
     return (uint_bits(x) & 0x7fffffffu) < 0x7f800000u;
-}
 #endif
+}
 
 /* sqrt of what is zero or more but for rounding */
 STATIC Float sqrt_of(Float x)

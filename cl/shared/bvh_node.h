@@ -1,5 +1,6 @@
 /* A node of the binary tree: the boxes of its two children, padded. */
-#pragma once
+#ifndef SHARED_BVH_NODE_H
+#define SHARED_BVH_NODE_H
 #include "shared/real.h"
 
 /* x = (child 0 lower, child 0 upper, child 1 lower, child 1 upper) along x; y and z alike.
@@ -12,3 +13,4 @@ typedef struct BvhNode {
     real4 z;
     uint4 child;
 } BvhNode;
+#endif

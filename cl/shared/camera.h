@@ -1,6 +1,7 @@
 /* Pinhole camera. The direction through film position (x, y) in [0,1]^2, y down from the top, is
  * forward + (2x - 1) right + (1 - 2y) up, where right and up are already scaled to half the extent of the image. */
-#pragma once
+#ifndef SHARED_CAMERA_H
+#define SHARED_CAMERA_H
 #include "shared/real.h"
 
 typedef struct Camera {
@@ -9,3 +10,4 @@ typedef struct Camera {
     real4 right;
     real4 up;
 } Camera;
+#endif

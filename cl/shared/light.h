@@ -1,5 +1,6 @@
 /* One thing that emits. An area light is one primitive, so that a mesh of n emissive triangles is n lights. */
-#pragma once
+#ifndef SHARED_LIGHT_H
+#define SHARED_LIGHT_H
 #include "shared/real.h"
 
 typedef struct Light {
@@ -19,3 +20,4 @@ typedef struct AliasBucket {
     uint threshold;
     uint alias;
 } AliasBucket;
+#endif

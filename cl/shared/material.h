@@ -1,5 +1,6 @@
 /* A material is a type and a place in one array of parameters (colours are three reals). */
-#pragma once
+#ifndef SHARED_MATERIAL_H
+#define SHARED_MATERIAL_H
 #include "shared/real.h"
 
 typedef struct Material {
@@ -11,3 +12,4 @@ typedef struct Material {
 
 /* Scatters only into single directions: light sampling cannot reach it. */
 #define MATERIAL_DELTA 1u
+#endif

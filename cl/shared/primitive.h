@@ -1,6 +1,7 @@
 /* What rays meet. Primitives are stored triangles first, then spheres, then disks; the index is the primitive's id and
  * the lowest id wins a tie. Coordinates are the normalised ones of Geometry (recentred, scaled by a power of two). */
-#pragma once
+#ifndef SHARED_PRIMITIVE_H
+#define SHARED_PRIMITIVE_H
 #include "shared/real.h"
 
 #define PRIMITIVE_TRIANGLE 0
@@ -28,3 +29,4 @@ typedef struct PrimitiveSurface {
 
 /* The geometric normal cross(b - a, c - a) of a triangle, or that of a sphere (outward) or disk, is turned round. */
 #define SURFACE_FLIP_NORMAL 1u
+#endif

@@ -1,5 +1,6 @@
 /* What a user sets and a kernel reads: numbers, never structure, so that no edit of them compiles anything. */
-#pragma once
+#ifndef SHARED_SETTINGS_H
+#define SHARED_SETTINGS_H
 #include "shared/camera.h"
 #include "shared/real.h"
 
@@ -33,3 +34,4 @@ typedef struct RenderSettings {
     real4 roulette_parameters; /* constant survival probability; 0; 0; 0 */
     real4 scene_bounds;        /* centre and radius of the bounding sphere of the geometry */
 } RenderSettings;
+#endif

@@ -1,5 +1,9 @@
-/* Every struct that host and device share: SHARED_STRUCTS lists them for the layout test. */
-#pragma once
+/* Every struct that host and device share: SHARED_STRUCTS lists them for the layout test.
+ *
+ * The host reads the structs twice, with float and with double reals (src/math/shared.h): their files have guards with
+ * names, which shared/again.h forgets. */
+#ifndef SHARED_STRUCTS_H
+#define SHARED_STRUCTS_H
 #include "shared/bvh_node.h"
 #include "shared/camera.h"
 #include "shared/features.h"
@@ -7,6 +11,7 @@
 #include "shared/limits.h"
 #include "shared/material.h"
 #include "shared/primitive.h"
+#include "shared/replay.h"
 #include "shared/settings.h"
 #include "shared/work.h"
 
@@ -24,4 +29,6 @@
     X(SampleAov)                                                                                                       \
     X(PixelBlock)                                                                                                      \
     X(PixelAov)                                                                                                        \
-    X(LaunchCounters)
+    X(LaunchCounters)                                                                                                  \
+    X(PathVertex)
+#endif

@@ -1,5 +1,6 @@
 /* One launch: the same samples of every pixel of a tile, and what comes back. */
-#pragma once
+#ifndef SHARED_WORK_H
+#define SHARED_WORK_H
 #include "shared/real.h"
 
 /* Sample first_sample + s of the tile's pixel p has flat index s * (tile_width * tile_height) + p, p row by row. */
@@ -63,3 +64,4 @@ typedef struct LaunchCounters {
     uint counts[8];       /* by COUNT_*, low words */
     uint counts_high[8];  /* high words */
 } LaunchCounters;
+#endif

@@ -64,6 +64,7 @@ RenderOptions render_options(const RenderArguments& arguments, Log& log)
     options.threads = arguments.threads;
     options.lanes = arguments.lanes;
     options.specialize = arguments.specialize == "on";
+    options.precision = arguments.precision == "fp64" ? Precision::fp64 : Precision::single;
     options.cache = arguments.no_cache ? KernelCache::none() : KernelCache::standard();
     if (!options.cache.warning().empty()) log.warning(options.cache.warning());
     return options;

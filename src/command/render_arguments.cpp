@@ -130,6 +130,12 @@ void add_render_options(CLI::App& command, RenderArguments& a)
                     "The picture is the same, bit for bit")
         ->check(CLI::IsMember({"on", "off"}))
         ->capture_default_str();
+    command
+        .add_option("--precision", a.precision,
+                    "single: float; fp64: the same kernels, scene and random numbers in double, on devices\n"
+                    "that have it")
+        ->check(CLI::IsMember({"single", "fp64"}))
+        ->capture_default_str();
     command.add_option("--report", a.report, "Write everything the render knows about itself as JSON")
         ->type_name("FILE");
     command.add_option("--threads", a.threads, "Use so many compute units of each device (0: all)")

@@ -23,7 +23,7 @@ struct RenderArguments {
     std::optional<std::uint64_t> samples, seed;
     std::optional<double> seconds;
     std::string size, crop, integrator, accelerator;
-    std::string specialize = "on";
+    std::string specialize = "on", precision = "single";
     std::uint32_t threads = 0, lanes = 0;
     bool lenient = false, no_cache = false, quiet = false, verbose = false;
 

@@ -67,6 +67,14 @@ std::uint32_t Device::preferred_lanes() const
     return 1;
 }
 
+void Device::require_double() const
+{
+    if (info_.has_double) return;
+    throw DeviceError(fmt::format("{}: this device has no double precision (cl_khr_fp64), which fp64 needs; `etendue "
+                                  "devices` tells which devices have it.",
+                                  info_.name));
+}
+
 void Device::finish() const
 {
     try {

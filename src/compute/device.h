@@ -63,6 +63,9 @@ public:
     // Paths per work-item that suit the device: native float width on a CPU (1, 4, 8 or 16), 1 elsewhere.
     std::uint32_t preferred_lanes() const;
 
+    // Throws DeviceError unless the device knows double precision.
+    void require_double() const;
+
     // The driver keeps compiled kernels itself. PoCL does, and compiles everything again when it is asked for a binary.
     bool caches_kernels() const { return info_.platform_name == "Portable Computing Language"; }
 

@@ -18,7 +18,7 @@ const std::vector<FeatureDescription>& feature_descriptions()
 Specialization Specialization::everything(std::uint32_t lanes, std::uint32_t stack_size)
 {
     static_assert(static_cast<std::uint32_t>(Feature::COUNT) < 32);
-    return {(1u << static_cast<std::uint32_t>(Feature::COUNT)) - 1u, lanes, stack_size};
+    return {(1u << static_cast<std::uint32_t>(Feature::COUNT)) - 1u, lanes, stack_size, Precision::single};
 }
 
 void Specialization::set(Feature f, bool on)
@@ -32,6 +32,7 @@ std::string Specialization::build_options() const
     std::string options;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(Feature::COUNT); ++i)
         options += fmt::format("-D{}={} ", feature_descriptions()[i].macro, (features >> i) & 1u);
-    return options + fmt::format("-DLANES={} -DSTACK_SIZE={}", lanes, stack_size);
+    options += fmt::format("-DLANES={} -DSTACK_SIZE={}", lanes, stack_size);
+    return precision == Precision::fp64 ? options + " -DREAL_IS_DOUBLE=1" : options;
 }
 } // namespace etendue

@@ -1,6 +1,7 @@
 // The structural features one kernel is built with: from the lists of cl/shared/features.h and nothing else.
 #pragma once
 
+#include "math/precision.h"
 #include "math/shared.h"
 
 #include <cstdint>
@@ -31,14 +32,15 @@ struct Specialization {
     std::uint32_t features = 0; // bit i: Feature i
     std::uint32_t lanes = 1;
     std::uint32_t stack_size = 32;
+    Precision precision = Precision::single;
 
-    // The general kernel: every feature, the stack and lanes as given.
+    // The general kernel: every feature, the stack and lanes as given, in single precision.
     static Specialization everything(std::uint32_t lanes, std::uint32_t stack_size);
 
     bool has(Feature f) const { return (features >> static_cast<std::uint32_t>(f)) & 1u; }
     void set(Feature f, bool on = true);
 
-    // "-DHAS_DIFFUSE=1 ... -DLANES=16 -DSTACK_SIZE=32": every macro, always.
+    // "-DHAS_DIFFUSE=1 ... -DLANES=16 -DSTACK_SIZE=32": every macro, always; with fp64 " -DREAL_IS_DOUBLE=1" too.
     std::string build_options() const;
 
     bool operator==(const Specialization&) const = default;

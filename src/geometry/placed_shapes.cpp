@@ -3,6 +3,7 @@
 
 #include "geometry/mesh_io.h"
 #include "geometry/shapes.h"
+#include "math/rounding.h"
 #include "math/transform.h"
 #include "util/stopwatch.h"
 
@@ -204,6 +205,7 @@ Vec3 normalised(const Vec3& point, const Normalisation& normalisation)
 
 Vec3 rounded(const Vec3& point, const Normalisation& normalisation)
 {
-    return Vec3(glm::vec3(normalised(point, normalisation)));
+    const Vec3 p = normalised(point, normalisation);
+    return Vec3(rounded_to_float(p.x), rounded_to_float(p.y), rounded_to_float(p.z));
 }
 } // namespace etendue

@@ -5,21 +5,47 @@
 
 namespace etendue
 {
+template<typename Reals>
+DeviceScene::RealBuffers<Reals> DeviceScene::upload(const Device& device, const Geometry& geometry,
+                                                    const RenderSettings& settings)
+{
+    RealBuffers<Reals> buffers;
+    buffers.settings = {device, "settings", std::vector{in_reals<Reals>(settings)}};
+    buffers.primitives = {device, "primitives", in_reals<Reals>(geometry.primitives)};
+    buffers.normals = {device, "vertex normals", in_reals<Reals>(geometry.normals)};
+    buffers.parameters = {device, "material parameters", in_reals<Reals>(geometry.parameters)};
+    buffers.lights = {device, "lights", in_reals<Reals>(geometry.lights)};
+    return buffers;
+}
+
 DeviceScene::DeviceScene(const Device& device, const Geometry& geometry, const RenderSettings& settings, BvhPlace place,
-                         const KernelCache& cache)
+                         const KernelCache& cache, Precision precision)
 {
     Stopwatch watch;
-    settings_ = Buffer<RenderSettings>(device, "settings", {settings});
-    primitives_ = Buffer<Primitive>(device, "primitives", geometry.primitives);
+    if (precision == Precision::fp64)
+        reals_ = upload<DoubleReals>(device, geometry, settings);
+    else
+        reals_ = upload<SingleReals>(device, geometry, settings);
     surfaces_ = Buffer<PrimitiveSurface>(device, "surfaces", geometry.surfaces);
-    normals_ = Buffer<real4>(device, "vertex normals", geometry.normals);
     materials_ = Buffer<Material>(device, "materials", geometry.materials);
-    parameters_ = Buffer<real>(device, "material parameters", geometry.parameters);
-    lights_ = Buffer<Light>(device, "lights", geometry.lights);
     light_table_ = Buffer<AliasBucket>(device, "light table", geometry.light_table);
     upload_seconds_ = watch.restart();
     if (settings.accelerator != ACCELERATOR_LBVH) return;
-    bvh_ = build_bvh(place, device, cache, geometry.primitives, primitives_);
+    build_tree(device, geometry, place, cache);
     bvh_seconds_ = watch.seconds();
+}
+
+void DeviceScene::build_tree(const Device& device, const Geometry& geometry, BvhPlace place, const KernelCache& cache)
+{
+    if (auto* single = std::get_if<RealBuffers<SingleReals>>(&reals_)) {
+        bvh_ = build_bvh(place, device, cache, geometry.primitives, single->primitives);
+        single->nodes = std::move(bvh_.bvh.nodes);
+        return;
+    }
+    // Boxes of the float tree hold what double rays meet, too: they are padded by float's roundings.
+    const Buffer<Primitive> primitives(device, "primitives in float", geometry.primitives);
+    bvh_ = build_bvh(place, device, cache, geometry.primitives, primitives);
+    std::get<RealBuffers<DoubleReals>>(reals_).nodes = {device, "BVH nodes", widen(bvh_.bvh.nodes.read())};
+    bvh_.bvh.nodes = {};
 }
 } // namespace etendue

@@ -6,17 +6,20 @@
 #include "compute/kernel.h"
 #include "geometry/geometry.h"
 #include "math/shared.h"
+#include "render/precision.h"
 
 #include <string>
+#include <variant>
 
 namespace etendue
 {
 class DeviceScene
 {
 public:
-    // Upload, and build the tree when settings ask for it. Throws DeviceError, BuildError, SceneError.
+    // Upload, and build the tree when settings ask for it: in float, whatever the precision. Throws DeviceError,
+    // BuildError, SceneError.
     DeviceScene(const Device& device, const Geometry& geometry, const RenderSettings& settings, BvhPlace place,
-                const KernelCache& cache);
+                const KernelCache& cache, Precision precision = Precision::single);
 
     const BvhStatistics& bvh_statistics() const { return bvh_.bvh.statistics; }
     const std::string& bvh_warning() const { return bvh_.warning; }
@@ -28,20 +31,35 @@ public:
     template<typename... Arguments>
     void launch(Kernel& kernel, std::size_t global_size, std::size_t local_size, const Arguments&... rest) const
     {
-        kernel.launch(global_size, local_size, settings_, bvh_.bvh.nodes, bvh_.bvh.leaf_primitives, primitives_,
-                      surfaces_, normals_, materials_, parameters_, lights_, light_table_, rest...);
+        std::visit(
+            [&](const auto& reals) {
+                kernel.launch(global_size, local_size, reals.settings, reals.nodes, bvh_.bvh.leaf_primitives,
+                              reals.primitives, surfaces_, reals.normals, materials_, reals.parameters, reals.lights,
+                              light_table_, rest...);
+            },
+            reals_);
     }
 
 private:
-    Buffer<RenderSettings> settings_;
-    Buffer<Primitive> primitives_;
+    // The arrays with reals in them.
+    template<typename Reals>
+    struct RealBuffers {
+        Buffer<typename Reals::Settings> settings;
+        Buffer<typename Reals::Shape> primitives;
+        Buffer<typename Reals::Node> nodes;
+        Buffer<typename Reals::Real4> normals;
+        Buffer<typename Reals::Real> parameters;
+        Buffer<typename Reals::Emitter> lights;
+    };
+    template<typename Reals>
+    static RealBuffers<Reals> upload(const Device& device, const Geometry& geometry, const RenderSettings& settings);
+    void build_tree(const Device& device, const Geometry& geometry, BvhPlace place, const KernelCache& cache);
+
+    std::variant<RealBuffers<SingleReals>, RealBuffers<DoubleReals>> reals_;
     Buffer<PrimitiveSurface> surfaces_;
-    Buffer<real4> normals_;
     Buffer<Material> materials_;
-    Buffer<real> parameters_;
-    Buffer<Light> lights_;
     Buffer<AliasBucket> light_table_;
-    BvhBuild bvh_;
+    BvhBuild bvh_; // its nodes are in reals_
     double upload_seconds_ = 0.0;
     double bvh_seconds_ = 0.0;
 };

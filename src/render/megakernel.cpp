@@ -22,20 +22,58 @@ LaunchShape complete_shape(LaunchShape shape, const Device& device, const Specia
     if (shape.local_size == 0) shape.local_size = device.is_cpu() || specialization.lanes > 1 ? 1 : largest;
     return shape;
 }
+
+// Launches take and give sums in the precision of their buffers, the film's are in float.
+template<typename Block>
+void write_sums(Buffer<Block>& buffer, const std::vector<Block>& sums)
+{
+    buffer.write(sums);
+}
+template<typename Wide, typename Block>
+void write_sums(Buffer<Wide>& buffer, const std::vector<Block>& sums)
+{
+    buffer.write(widen(sums));
+}
+template<typename Block>
+void read_sums(const Buffer<Block>& buffer, std::vector<Block>& sums)
+{
+    buffer.read(sums.data(), sums.size());
+}
+template<typename Wide, typename Block>
+void read_sums(const Buffer<Wide>& buffer, std::vector<Block>& sums)
+{
+    std::vector<Wide> wide(sums.size());
+    buffer.read(wide.data(), wide.size());
+    sums = narrow(wide);
+}
 } // namespace
+
+template<typename Reals>
+Megakernel::LaunchBuffers<Reals> Megakernel::make_buffers(const Device& device, std::size_t count, bool has_aov)
+{
+    LaunchBuffers<Reals> buffers;
+    buffers.results = {device, "sample results", count};
+    buffers.blocks = {device, "pixel sums", count};
+    if (!has_aov) return buffers;
+    buffers.sample_aovs = {device, "sample AOVs", count};
+    buffers.block_aovs = {device, "pixel AOVs", count};
+    return buffers;
+}
 
 Megakernel::Megakernel(const Device& device, bool normals, const Specialization& specialization,
                        const KernelCache& cache, const LaunchShape& shape)
     : device_(&device), specialization_(specialization), shape_(complete_shape(shape, device, specialization)),
       path_program_(device, normals ? "normals.cl" : "path_megakernel.cl", specialization.build_options(), cache),
-      film_program_(device, "film.cl", film_features(specialization.has(Feature::AOV)).build_options(), cache),
+      film_program_(device, "film.cl",
+                    film_features(specialization.has(Feature::AOV), specialization.precision).build_options(), cache),
       path_kernel_(path_program_, normals ? "normals" : "path_megakernel"),
-      film_kernel_(film_program_, "film_accumulate"), results_(device, "sample results", shape_.max_samples),
-      blocks_(device, "pixel sums", shape_.max_samples), counters_(device, "counters", 1)
+      film_kernel_(film_program_, "film_accumulate"), counters_(device, "counters", 1)
 {
-    if (!specialization.has(Feature::AOV)) return;
-    sample_aovs_ = Buffer<SampleAov>(device, "sample AOVs", shape_.max_samples);
-    block_aovs_ = Buffer<PixelAov>(device, "pixel AOVs", shape_.max_samples);
+    const bool has_aov = specialization.has(Feature::AOV);
+    if (specialization.precision == Precision::fp64)
+        buffers_ = make_buffers<DoubleReals>(device, shape_.max_samples, has_aov);
+    else
+        buffers_ = make_buffers<SingleReals>(device, shape_.max_samples, has_aov);
 }
 
 std::uint32_t Megakernel::pool_size(std::uint64_t samples) const
@@ -61,21 +99,29 @@ LaunchCounters Megakernel::trace(const DeviceScene& scene, WorkUnit unit, std::v
     LaunchCounters counters{};
     std::fill(std::begin(counters.health_first), std::end(counters.health_first), NO_INDEX);
     counters_.write(&counters, 1);
-    blocks_.write(blocks);
-    block_aovs_.write(aovs);
-    scene.launch(path_kernel_, round_up(items), shape_.local_size, unit, results_, sample_aovs_, counters_);
-    film_kernel_.launch(pixels, 0, unit, results_, sample_aovs_, blocks_, block_aovs_, counters_);
-    blocks_.read(blocks.data(), blocks.size());
-    block_aovs_.read(aovs.data(), aovs.size());
+    std::visit(
+        [&](auto& b) {
+            write_sums(b.blocks, blocks);
+            write_sums(b.block_aovs, aovs);
+            scene.launch(path_kernel_, round_up(items), shape_.local_size, unit, b.results, b.sample_aovs, counters_);
+            film_kernel_.launch(pixels, 0, unit, b.results, b.sample_aovs, b.blocks, b.block_aovs, counters_);
+            read_sums(b.blocks, blocks);
+            read_sums(b.block_aovs, aovs);
+        },
+        buffers_);
     counters_.read(&counters, 1);
     return counters;
 }
 
 std::uint32_t Megakernel::accident_code(std::uint32_t flat_index) const
 {
-    SampleResult result;
-    results_.read(&result, 1, flat_index);
-    return static_cast<std::uint32_t>(result.radiance.s[3]);
+    return std::visit(
+        [&]<typename Reals>(const LaunchBuffers<Reals>& b) {
+            typename Reals::Result result;
+            b.results.read(&result, 1, flat_index);
+            return static_cast<std::uint32_t>(result.radiance.s[3]);
+        },
+        buffers_);
 }
 
 void Megakernel::store_in_cache()

@@ -5,9 +5,11 @@
 #include "compute/specialization.h"
 #include "math/shared.h"
 #include "render/device_scene.h"
+#include "render/precision.h"
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace etendue
@@ -22,7 +24,8 @@ struct LaunchShape {
 class Megakernel
 {
 public:
-    // Builds path_megakernel.cl (or normals.cl) with the specialization, and film.cl. Throws BuildError, DeviceError.
+    // Builds path_megakernel.cl (or normals.cl) with the specialization, and film.cl. The scenes it traces have its
+    // precision. Throws BuildError, DeviceError.
     Megakernel(const Device& device, bool normals, const Specialization& specialization, const KernelCache& cache,
                const LaunchShape& shape);
 
@@ -41,6 +44,16 @@ public:
     void store_in_cache();
 
 private:
+    // What a launch writes.
+    template<typename Reals>
+    struct LaunchBuffers {
+        Buffer<typename Reals::Result> results;
+        Buffer<typename Reals::ResultAov> sample_aovs;
+        Buffer<typename Reals::Block> blocks;
+        Buffer<typename Reals::BlockAov> block_aovs;
+    };
+    template<typename Reals>
+    static LaunchBuffers<Reals> make_buffers(const Device& device, std::size_t count, bool has_aov);
     std::uint32_t pool_size(std::uint64_t samples) const;
 
     const Device* device_;
@@ -48,10 +61,7 @@ private:
     LaunchShape shape_;
     Program path_program_, film_program_;
     Kernel path_kernel_, film_kernel_;
-    Buffer<SampleResult> results_;
-    Buffer<SampleAov> sample_aovs_;
-    Buffer<PixelBlock> blocks_;
-    Buffer<PixelAov> block_aovs_;
+    std::variant<LaunchBuffers<SingleReals>, LaunchBuffers<DoubleReals>> buffers_;
     Buffer<LaunchCounters> counters_;
 };
 } // namespace etendue

@@ -25,6 +25,7 @@ struct AccidentPlace {
 struct HealthRecord {
     std::uint64_t count = 0;
     std::optional<AccidentPlace> first;
+    std::string replay; // the command that shows the path of the first, where there is one
 };
 
 // "non_finite_radiance" and so on, by HEALTH_*.
@@ -46,6 +47,7 @@ struct DeviceReport {
 struct RenderReport {
     std::vector<DeviceReport> devices;
     AcceleratorType accelerator = ACCELERATOR_LBVH;
+    Precision precision = Precision::single;
     double setup_seconds = 0.0;          // opening devices, uploading, building, compiling
     double render_seconds = 0.0;         // all passes, first launch included
     double first_launch_seconds = 0.0;   // of the slowest device

@@ -34,8 +34,13 @@ BvhPlace bvh_place(BuildPlace place)
     return BvhPlace::automatic;
 }
 
-std::uint32_t checked_lanes(std::uint32_t lanes, const Device& device)
+std::uint32_t checked_lanes(std::uint32_t lanes, Precision precision, const Device& device)
 {
+    if (precision == Precision::fp64) {
+        device.require_double();
+        if (lanes > 1) throw UsageError(fmt::format("In double precision a work-item carries 1 lane, not {}.", lanes));
+        return 1;
+    }
     if (lanes == 0) return device.preferred_lanes();
     if (lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16)
         throw UsageError(fmt::format("A work-item can carry 1, 4, 8 or 16 lanes, not {}.", lanes));
@@ -68,17 +73,17 @@ PixelRect tile_of(const WorkUnit& unit)
 struct Renderer::Worker {
     Worker(const DeviceInfo& info, const Scene& scene, const Geometry& geometry, bool has_aov,
            const RenderOptions& options)
-        : device(info, options.threads), lanes(checked_lanes(options.lanes, device)),
+        : device(info, options.threads), lanes(checked_lanes(options.lanes, options.precision, device)),
           settings(make_render_settings(scene, geometry,
                                         choose_accelerator(scene.accelerator, geometry.primitives.size(), lanes))),
-          device_scene(device, geometry, settings, bvh_place(scene.accelerator.build), options.cache)
+          device_scene(device, geometry, settings, bvh_place(scene.accelerator.build), options.cache, options.precision)
     {
         const std::uint32_t depth = device_scene.bvh_statistics().depth;
-        const Specialization needed = scene_features(scene, geometry, settings, has_aov, lanes, depth);
+        Specialization kernels = scene_features(scene, geometry, settings, has_aov, lanes, depth);
+        if (!options.specialize) kernels = Specialization::everything(lanes, kernels.stack_size);
+        kernels.precision = options.precision;
         Stopwatch watch;
-        kernel = std::make_unique<Megakernel>(device, scene.integrator.type == IntegratorType::normals,
-                                              options.specialize ? needed
-                                                                 : Specialization::everything(lanes, needed.stack_size),
+        kernel = std::make_unique<Megakernel>(device, scene.integrator.type == IntegratorType::normals, kernels,
                                               options.cache, fitting_shape(options.shape, scene.film));
         report.compile_seconds = watch.seconds();
         launch_samples = std::min(FIRST_LAUNCH_SAMPLES, kernel->shape().max_samples);
@@ -107,6 +112,7 @@ Renderer::Renderer(const Scene& scene, const Geometry& geometry, bool has_aov, c
     Stopwatch watch;
     for (const DeviceInfo& info : options.devices)
         workers_.push_back(std::make_unique<Worker>(info, scene, geometry, has_aov, options));
+    report_.precision = options.precision;
     report_.accelerator = static_cast<AcceleratorType>(workers_.front()->settings.accelerator);
     for (const auto& worker : workers_) {
         DeviceReport& r = worker->report;

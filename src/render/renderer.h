@@ -24,6 +24,7 @@ struct RenderOptions {
     std::uint32_t threads = 0;       // compute units of each device; 0: all
     std::uint32_t lanes = 0;         // 0: as suits each device
     bool specialize = true;          // false: the general kernel
+    Precision precision = Precision::single;
     KernelCache cache;
     LaunchShape shape;
 };

@@ -137,6 +137,7 @@ Json::Value health_json(const RenderReport& report)
             entry["first"]["pixel"].append(record.first->y);
             entry["first"]["sample"] = number(record.first->sample);
             entry["first"]["vertex"] = record.first->vertex;
+            entry["replay"] = record.replay;
         }
         json[health_name(kind)] = entry;
     }
@@ -168,6 +169,7 @@ std::string report_json(const Scene& scene, const Geometry& geometry, const Rend
     json["interrupted"] = report.interrupted;
     json["relative_error"] = finite_or_null(relative_error);
     json["accelerator"] = report.accelerator == ACCELERATOR_LBVH ? "lbvh" : "none";
+    json["precision"] = precision_name(report.precision);
     json["seconds"] = seconds_json(phases);
     json["rays"] = rays_json(report);
     json["health"] = health_json(report);
@@ -190,6 +192,7 @@ std::map<std::string, std::string> image_metadata(const Scene& scene, const Rend
     metadata["etendue:seed"] = std::to_string(scene.sampler.seed);
     metadata["etendue:spp"] = std::to_string(report.samples_per_pixel);
     metadata["etendue:interrupted"] = report.interrupted ? "yes" : "no";
+    metadata["etendue:precision"] = precision_name(report.precision);
     std::string devices, drivers, seconds;
     for (const DeviceReport& device : report.devices) {
         devices += (devices.empty() ? "" : ", ") + device.info.name;

@@ -56,9 +56,10 @@ Specialization scene_features(const Scene& scene, const Geometry& geometry, cons
     return s;
 }
 
-Specialization film_features(bool has_aov)
+Specialization film_features(bool has_aov, Precision precision)
 {
     Specialization s;
+    s.precision = precision;
     s.set(Feature::AOV, has_aov);
     return s;
 }

@@ -18,5 +18,5 @@ Specialization scene_features(const Scene& scene, const Geometry& geometry, cons
                               bool has_aov, std::uint32_t lanes, std::uint32_t bvh_depth);
 
 // What is left of a specialization for the kernels that only add up samples: the same binary for every scene.
-Specialization film_features(bool has_aov);
+Specialization film_features(bool has_aov, Precision precision = Precision::single);
 } // namespace etendue

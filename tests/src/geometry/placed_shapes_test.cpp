@@ -125,3 +125,12 @@ TEST_CASE("triangles keep their own normals when others are dropped before them"
     CHECK(shapes.triangle_count() == 1);
     CHECK(shapes.meshes[0].mesh.normal_indices == std::vector<glm::u32vec3>{{1, 1, 0}});
 }
+
+TEST_CASE("every coordinate is rounded to float", "[geometry]")
+{
+    // Optimised code too, which may take three conversions for one.
+    const Vec3 place = rounded(Vec3(0.1, 0.2, 0.3), Normalisation{});
+    CHECK(place.x == double(0.1f));
+    CHECK(place.y == double(0.2f));
+    CHECK(place.z == double(0.3f));
+}
