@@ -1,7 +1,8 @@
 // Triangles, disks and spheres that emit: solid angles in closed form, densities by quadrature, samples by chi-square.
-#include "src/bvh/primitive_sets.h"
+#include "check/primitive_sets.h"
 #include "support/chi_square.h"
-#include "support/device_lights.h"
+#include "check/device_lights.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

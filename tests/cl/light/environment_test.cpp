@@ -1,7 +1,8 @@
 // Light from infinitely far away: uniform over the sphere, met by every ray that meets nothing else.
-#include "src/bvh/primitive_sets.h"
+#include "check/primitive_sets.h"
 #include "support/chi_square.h"
-#include "support/device_lights.h"
+#include "check/device_lights.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The kernels under test, what runs them, and rays that break traversals.
-#include "support/device_traversal.h"
+#include "check/traversal.h"
 
 #include "bvh/lbvh_host.h"
 #include "compute/kernel.h"
