@@ -22,12 +22,18 @@ LaunchShape complete_shape(LaunchShape shape, const Device& device, const Specia
     if (shape.local_size == 0) shape.local_size = device.is_cpu() || specialization.lanes > 1 ? 1 : largest;
     return shape;
 }
+
+std::string joined(const std::string& options, const std::string& more)
+{
+    return more.empty() ? options : options + ' ' + more;
+}
 } // namespace
 
 Megakernel::Megakernel(const Device& device, bool normals, const Specialization& specialization,
-                       const KernelCache& cache, const LaunchShape& shape)
+                       const KernelCache& cache, const LaunchShape& shape, const std::string& path_options)
     : device_(&device), specialization_(specialization), shape_(complete_shape(shape, device, specialization)),
-      path_program_(device, normals ? "normals.cl" : "path_megakernel.cl", specialization.build_options(), cache),
+      path_program_(device, normals ? "normals.cl" : "path_megakernel.cl",
+                    joined(specialization.build_options(), path_options), cache),
       film_program_(device, "film.cl", film_features(specialization.has(Feature::AOV)).build_options(), cache),
       path_kernel_(path_program_, normals ? "normals" : "path_megakernel"),
       film_kernel_(film_program_, "film_accumulate"), results_(device, "sample results", shape_.max_samples),
