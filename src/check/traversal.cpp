@@ -19,7 +19,8 @@ namespace
 // Numbers of a ray, and of what became of it.
 constexpr std::size_t RAY_WORDS = 9, RESULT_WORDS = 7;
 
-const char* KERNELS = "#include \"bvh/traverse.h\"\n" R"(
+const char* KERNELS = "#include \"bvh/traverse.h\"\n"
+                      R"(
 
 STATIC Uint load_word(global const uint* words, uint first, uint count, uint word)
 {
