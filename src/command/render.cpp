@@ -65,6 +65,9 @@ RenderOptions render_options(const RenderArguments& arguments, Log& log)
     options.lanes = arguments.lanes;
     options.specialize = arguments.specialize == "on";
     options.precision = arguments.precision == "fp64" ? Precision::fp64 : Precision::single;
+    options.fast_math = arguments.fast_math;
+    if (options.fast_math)
+        log.warning("--fast-math relaxes floating point: the picture may be wrong, and its metadata say so.");
     options.cache = arguments.no_cache ? KernelCache::none() : KernelCache::standard();
     if (!options.cache.warning().empty()) log.warning(options.cache.warning());
     return options;
@@ -174,11 +177,14 @@ Phases phases_of(const RenderReport& report, double parse, const Geometry& geome
         for (const DeviceReport& device : report.devices) seconds = std::max(seconds, device.*member);
         return seconds;
     };
+    double canary = 0.0;
+    for (const DeviceReport& device : report.devices) canary = std::max(canary, device.canary.seconds);
     return {{"parse", parse},
             {"mesh_load", geometry.statistics.mesh_seconds},
             {"geometry", geometry_seconds - geometry.statistics.mesh_seconds},
             {"upload", slowest(&DeviceReport::upload_seconds)},
             {"bvh", slowest(&DeviceReport::bvh_seconds)},
+            {"canary", canary},
             {"compile", slowest(&DeviceReport::compile_seconds)},
             {"first_launch", report.first_launch_seconds},
             {"render", report.render_seconds - report.first_launch_seconds}};

@@ -25,7 +25,7 @@ struct RenderArguments {
     std::string size, crop, integrator, accelerator;
     std::string specialize = "on", precision = "single";
     std::uint32_t threads = 0, lanes = 0;
-    bool lenient = false, no_cache = false, quiet = false, verbose = false;
+    bool lenient = false, no_cache = false, fast_math = false, quiet = false, verbose = false;
 
     Verbosity verbosity() const { return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal; }
 };

@@ -46,6 +46,11 @@ void read_sums(const Buffer<Wide>& buffer, std::vector<Block>& sums)
     buffer.read(wide.data(), wide.size());
     sums = narrow(wide);
 }
+
+std::string joined(const std::string& options, const std::string& more)
+{
+    return more.empty() ? options : options + ' ' + more;
+}
 } // namespace
 
 template<typename Reals>
@@ -61,9 +66,10 @@ Megakernel::LaunchBuffers<Reals> Megakernel::make_buffers(const Device& device, 
 }
 
 Megakernel::Megakernel(const Device& device, bool normals, const Specialization& specialization,
-                       const KernelCache& cache, const LaunchShape& shape)
+                       const KernelCache& cache, const LaunchShape& shape, const std::string& path_options)
     : device_(&device), specialization_(specialization), shape_(complete_shape(shape, device, specialization)),
-      path_program_(device, normals ? "normals.cl" : "path_megakernel.cl", specialization.build_options(), cache),
+      path_program_(device, normals ? "normals.cl" : "path_megakernel.cl",
+                    joined(specialization.build_options(), path_options), cache),
       film_program_(device, "film.cl",
                     film_features(specialization.has(Feature::AOV), specialization.precision).build_options(), cache),
       path_kernel_(path_program_, normals ? "normals" : "path_megakernel"),

@@ -24,10 +24,10 @@ struct LaunchShape {
 class Megakernel
 {
 public:
-    // Builds path_megakernel.cl (or normals.cl) with the specialization, and film.cl. The scenes it traces have its
-    // precision. Throws BuildError, DeviceError.
+    // Builds path_megakernel.cl (or normals.cl) with the specialization and further options, and film.cl. The scenes it
+    // traces have its precision. Throws BuildError, DeviceError.
     Megakernel(const Device& device, bool normals, const Specialization& specialization, const KernelCache& cache,
-               const LaunchShape& shape);
+               const LaunchShape& shape, const std::string& path_options = "");
 
     // Trace a unit and add its samples to the blocks of its pixels (row by row; aovs empty without AOVs). Returns the
     // launch's counters. Waits for the end. Throws DeviceError.

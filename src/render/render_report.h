@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bvh/bvh.h"
+#include "compute/canary.h"
 #include "compute/device.h"
 #include "compute/program.h"
 #include "compute/specialization.h"
@@ -36,6 +37,7 @@ struct DeviceReport {
     std::uint32_t compute_units = 0;
     Specialization specialization;
     std::vector<BuildReport> builds;
+    CanaryReport canary;
     BvhStatistics bvh;
     double upload_seconds = 0.0, bvh_seconds = 0.0, compile_seconds = 0.0;
     double first_launch_seconds = 0.0; // the first unit, with whatever the driver compiles then
@@ -48,6 +50,7 @@ struct RenderReport {
     std::vector<DeviceReport> devices;
     AcceleratorType accelerator = ACCELERATOR_LBVH;
     Precision precision = Precision::single;
+    bool fast_math = false;              // relaxed floating point was asked for: the picture may be wrong
     double setup_seconds = 0.0;          // opening devices, uploading, building, compiling
     double render_seconds = 0.0;         // all passes, first launch included
     double first_launch_seconds = 0.0;   // of the slowest device

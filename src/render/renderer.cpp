@@ -62,6 +62,13 @@ std::uint64_t samples_of(const WorkUnit& unit)
     return std::uint64_t{unit.tile_width} * unit.tile_height * unit.sample_count;
 }
 
+[[noreturn]] void refuse(const DeviceInfo& info, const CanaryReport& canary)
+{
+    throw DeviceError(fmt::format("{}, driver {}, does not compute strictly, so pictures would be wrong: {} Choose "
+                                  "another device or driver, or render all the same with --fast-math.",
+                                  info.name, info.driver_version, canary.complaint()));
+}
+
 PixelRect tile_of(const WorkUnit& unit)
 {
     return {static_cast<int>(unit.tile_x), static_cast<int>(unit.tile_y), static_cast<int>(unit.tile_width),
@@ -79,12 +86,15 @@ struct Renderer::Worker {
           device_scene(device, geometry, settings, bvh_place(scene.accelerator.build), options.cache, options.precision)
     {
         const std::uint32_t depth = device_scene.bvh_statistics().depth;
+        const std::string path_options = options.fast_math ? FAST_MATH_OPTION : "";
+        report.canary = run_canary(device, path_options, options.cache);
+        if (!report.canary.passed && !options.fast_math) refuse(device.info(), report.canary);
         Specialization kernels = scene_features(scene, geometry, settings, has_aov, lanes, depth);
         if (!options.specialize) kernels = Specialization::everything(lanes, kernels.stack_size);
         kernels.precision = options.precision;
         Stopwatch watch;
         kernel = std::make_unique<Megakernel>(device, scene.integrator.type == IntegratorType::normals, kernels,
-                                              options.cache, fitting_shape(options.shape, scene.film));
+                                              options.cache, fitting_shape(options.shape, scene.film), path_options);
         report.compile_seconds = watch.seconds();
         launch_samples = std::min(FIRST_LAUNCH_SAMPLES, kernel->shape().max_samples);
     }
@@ -114,6 +124,7 @@ Renderer::Renderer(const Scene& scene, const Geometry& geometry, bool has_aov, c
         workers_.push_back(std::make_unique<Worker>(info, scene, geometry, has_aov, options));
     report_.precision = options.precision;
     report_.accelerator = static_cast<AcceleratorType>(workers_.front()->settings.accelerator);
+    report_.fast_math = options.fast_math;
     for (const auto& worker : workers_) {
         DeviceReport& r = worker->report;
         r.info = worker->device.info();

@@ -25,6 +25,7 @@ struct RenderOptions {
     std::uint32_t lanes = 0;         // 0: as suits each device
     bool specialize = true;          // false: the general kernel
     Precision precision = Precision::single;
+    bool fast_math = false; // an experiment: relaxed floating point, even where the canary warns of it
     KernelCache cache;
     LaunchShape shape;
 };
@@ -57,7 +58,8 @@ struct RenderLimits {
 class Renderer
 {
 public:
-    // Opens the devices, uploads, builds the tree, compiles. `geometry` outlives the renderer. Throws DeviceError,
+    // Opens the devices, uploads, builds the tree, asks the canary, compiles. `geometry` outlives the renderer. Throws
+    // DeviceError, also when a canary finds that a device does not compute strictly (unless with fast_math);
     // BuildError, UsageError for impossible options.
     Renderer(const Scene& scene, const Geometry& geometry, bool has_aov, const RenderOptions& options);
     ~Renderer();

@@ -75,6 +75,23 @@ Json::Value build_json(const BuildReport& build)
     return json;
 }
 
+Json::Value canary_json(const CanaryReport& canary)
+{
+    Json::Value json;
+    json["passed"] = canary.passed;
+    json["from_cache"] = canary.from_cache;
+    json["seconds"] = canary.seconds;
+    json["findings"] = Json::Value(Json::arrayValue);
+    for (const CanaryFinding& finding : canary.findings) {
+        Json::Value entry;
+        entry["name"] = finding.name;
+        entry["passed"] = finding.passed;
+        entry["detail"] = finding.detail;
+        json["findings"].append(entry);
+    }
+    return json;
+}
+
 Json::Value features_json(const Specialization& s)
 {
     Json::Value json(Json::objectValue);
@@ -119,6 +136,8 @@ Json::Value device_json(const DeviceReport& device)
     json["seconds"]["compile"] = device.compile_seconds;
     json["seconds"]["first_launch"] = device.first_launch_seconds;
     json["seconds"]["render"] = device.render_seconds;
+    json["seconds"]["canary"] = device.canary.seconds;
+    json["canary"] = canary_json(device.canary);
     for (const BuildReport& build : device.builds) json["builds"].append(build_json(build));
     json["bvh"] = bvh_json(device.bvh);
     json["memory"] = memory_json(device);
@@ -170,6 +189,7 @@ std::string report_json(const Scene& scene, const Geometry& geometry, const Rend
     json["relative_error"] = finite_or_null(relative_error);
     json["accelerator"] = report.accelerator == ACCELERATOR_LBVH ? "lbvh" : "none";
     json["precision"] = precision_name(report.precision);
+    json["fast_math"] = report.fast_math;
     json["seconds"] = seconds_json(phases);
     json["rays"] = rays_json(report);
     json["health"] = health_json(report);
@@ -203,6 +223,7 @@ std::map<std::string, std::string> image_metadata(const Scene& scene, const Rend
     metadata["etendue:device"] = devices;
     metadata["etendue:driver"] = drivers;
     metadata["etendue:seconds"] = seconds;
+    if (report.fast_math) metadata["etendue:fast_math"] = "yes: relaxed floating point, the picture may be wrong";
     metadata["etendue:accidents"] = std::to_string(report.accidents());
     return metadata;
 }

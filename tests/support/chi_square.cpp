@@ -1,14 +1,11 @@
-// Pearson's test with pooling, and its power by the normal approximation of the noncentral distribution.
+// Assertions about a histogram.
 #include "support/chi_square.h"
 
 #include "util/statistics.h"
 
 #include <catch2/catch.hpp>
-
-#include <cmath>
 #include <fmt/format.h>
 #include <iostream>
-#include <numeric>
 
 namespace etendue
 {
@@ -16,84 +13,12 @@ namespace
 {
 constexpr double FAMILY_LEVEL = 1e-3;
 constexpr std::size_t FAMILY_TESTS = 500;
-constexpr double LEAST_EXPECTED = 5.0;
-// A bias at the smallest that a test may miss is found with this quantile's probability, 99 %.
-constexpr double POWER_QUANTILE = 2.33;
-
-double test_level()
-{
-    return sidak_alpha(FAMILY_LEVEL, FAMILY_TESTS);
-}
-
-// The least x >= low at which a rising function is not negative.
-template<typename Function>
-double find_root(double low, Function rising)
-{
-    double high = low + 1.0;
-    while (rising(high) < 0.0) high *= 2.0;
-    for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        (rising(middle) < 0.0 ? low : high) = middle;
-    }
-    return high;
-}
-
-// Noncentrality that pushes the statistic beyond its critical value in 99 of 100 runs: mean degrees + x, variance
-// 2 (degrees + 2 x).
-double visible_noncentrality(double degrees)
-{
-    const double critical = find_root(degrees, [&](double x) { return test_level() - chi_square_p_value(x, degrees); });
-    return find_root(
-        0.0, [&](double x) { return degrees + x - POWER_QUANTILE * std::sqrt(2.0 * (degrees + 2.0 * x)) - critical; });
-}
 } // namespace
-
-void Histogram::add(double x, double y)
-{
-    if (!(x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0)) {
-        ++outside_;
-        return;
-    }
-    const auto bin = [](double t, std::size_t bins) {
-        return std::min(bins - 1, static_cast<std::size_t>(t * static_cast<double>(bins)));
-    };
-    ++counts_[bin(y, rows_) * columns_ + bin(x, columns_)];
-}
-
-double Histogram::total() const
-{
-    return std::accumulate(counts_.begin(), counts_.end(), outside_);
-}
-
-ChiSquare chi_square(const std::vector<double>& counts, const std::vector<double>& expected)
-{
-    // Pool neighbouring bins until enough is expected; what is left at the end joins the last pool.
-    std::vector<double> pooled_counts, pooled_expected;
-    double count = 0.0, mean = 0.0, samples = 0.0;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        samples += counts[i];
-        count += counts[i];
-        mean += expected[i];
-        if (mean < LEAST_EXPECTED) continue;
-        pooled_counts.push_back(count);
-        pooled_expected.push_back(mean);
-        count = mean = 0.0;
-    }
-    if (pooled_counts.size() < 2) return {};
-    pooled_counts.back() += count;
-    pooled_expected.back() += mean;
-
-    double statistic = 0.0;
-    for (std::size_t i = 0; i < pooled_counts.size(); ++i)
-        statistic += std::pow(pooled_counts[i] - pooled_expected[i], 2.0) / pooled_expected[i];
-    const double degrees = static_cast<double>(pooled_counts.size() - 1);
-    return {chi_square_p_value(statistic, degrees), degrees, std::sqrt(visible_noncentrality(degrees) / samples)};
-}
 
 void check_histogram(const std::string& subject, const Histogram& histogram, const std::vector<double>& probabilities,
                      double smallest_bias)
 {
-    const double samples = histogram.total();
+    const double samples = histogram.total(), level = sidak_alpha(FAMILY_LEVEL, FAMILY_TESTS);
     std::vector<double> expected;
     double sum = 0.0, where_none = histogram.outside();
     for (std::size_t i = 0; i < probabilities.size(); ++i) {
@@ -101,11 +26,11 @@ void check_histogram(const std::string& subject, const Histogram& histogram, con
         sum += probabilities[i];
         if (probabilities[i] == 0.0) where_none += histogram.counts()[i];
     }
-    const ChiSquare test = chi_square(histogram.counts(), expected);
+    const ChiSquare test = chi_square(histogram.counts(), expected, level);
     CAPTURE(subject, samples, test.degrees, test.p_value, test.smallest_bias);
     CHECK(where_none == 0.0);
     CHECK(sum == Approx(1.0).epsilon(1e-4));
-    CHECK(test.p_value > test_level());
+    CHECK(test.p_value > level);
     const bool has_power = test.degrees > 0.0 && test.smallest_bias <= smallest_bias;
     CHECK(has_power);
     std::cout << fmt::format("{}: chi-square with {} degrees of freedom; a bias of {:.2g} % would have been seen.\n",

@@ -1,46 +1,16 @@
-// Pearson's chi-square test of samples against a density. It prints the smallest bias that it would have seen, and
-// fails when that is too large to mean anything.
+// A chi-square test (check/chi_square.h) as assertions of Catch2.
 #pragma once
 
-#include <cstddef>
+#include "check/chi_square.h"
+
 #include <string>
 #include <vector>
 
 namespace etendue
 {
-// Counts of points of the unit square by bin, row by row; columns by x.
-class Histogram
-{
-public:
-    Histogram(std::size_t columns, std::size_t rows) : columns_(columns), rows_(rows), counts_(columns * rows) {}
-
-    // Points outside the square are counted apart.
-    void add(double x, double y);
-
-    std::size_t columns() const { return columns_; }
-    std::size_t rows() const { return rows_; }
-    const std::vector<double>& counts() const { return counts_; }
-    double outside() const { return outside_; }
-    double total() const;
-
-private:
-    std::size_t columns_, rows_;
-    std::vector<double> counts_;
-    double outside_ = 0.0;
-};
-
-struct ChiSquare {
-    double p_value = 0.0;
-    double degrees = 0.0;
-    // Root mean square relative error of the bins' probabilities that the test misses once in a hundred runs.
-    double smallest_bias = 0.0;
-};
-
-// Bins of which fewer than five are expected are pooled, in order.
-ChiSquare chi_square(const std::vector<double>& counts, const std::vector<double>& expected);
-
 // Test that each bin has its probability: none outside the square, none where the probability is zero, probabilities
 // that add up to 1, a p-value that is one of a family of 500 tests at level 1e-3, and power to see `smallest_bias`.
+// Prints the smallest bias that would have been seen.
 void check_histogram(const std::string& subject, const Histogram& histogram, const std::vector<double>& probabilities,
                      double smallest_bias = 0.02);
 } // namespace etendue

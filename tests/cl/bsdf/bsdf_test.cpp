@@ -1,65 +1,48 @@
-// Every BSDF of BSDF_LIST under the suite of tests/support/device_bsdf_suite.h, and the choice among them by lane.
+// Every BSDF of BSDF_LIST under the checks of src/check/bsdf_checks.h, and the choice among them by lane.
+#include "check/bsdf_checks.h"
+#include "check/bsdf_suite.h"
 #include "scene/material_parser.h"
-#include "support/device_bsdf_suite.h"
+#include "support/device_checks.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 #include <random>
 
 namespace etendue
 {
-namespace
-{
-using Check = void (*)(const Device&, const BsdfCase&);
-
-void for_each_case(bool delta, Check check)
-{
-    for (const Device& device : test_devices())
-        for (int type = 0; type < BSDF_COUNT; ++type) {
-            if (bsdf_is_delta(static_cast<BsdfType>(type)) != delta) continue;
-            for (const BsdfCase& bsdf : bsdf_cases(static_cast<BsdfType>(type))) check(device, bsdf);
-        }
-}
-} // namespace
-
 TEST_CASE("a sample of a BSDF weighs f times cosine over density, and its density is pdf()")
 {
-    for_each_case(false, check_weights);
+    require_passed(bsdf_checks(), "-weight");
 }
 
 TEST_CASE("the density of a BSDF is the Jacobian of its sampling")
 {
-    for_each_case(false, check_jacobian);
+    require_passed(bsdf_checks(), "-jacobian");
 }
 
 TEST_CASE("a BSDF is reciprocal")
 {
-    for_each_case(false, check_reciprocity);
+    require_passed(bsdf_checks(), "-reciprocity");
 }
 
-TEST_CASE("the density of a BSDF integrates to the share of samples that have a direction")
+TEST_CASE("the density of a BSDF integrates to 1, and it reflects by sampling what it reflects by quadrature")
 {
-    for_each_case(false, check_pdf_integral);
+    require_passed(bsdf_checks(), "-integral");
 }
 
 TEST_CASE("samples of a BSDF are distributed as its density says")
 {
-    for_each_case(false, check_distribution);
-}
-
-TEST_CASE("a BSDF reflects by sampling what it reflects by quadrature, and no more than it receives")
-{
-    for_each_case(false, check_albedo);
+    require_passed(bsdf_checks(), "-distribution");
 }
 
 TEST_CASE("a BSDF is finite, not negative and without light along the surface")
 {
-    for_each_case(false, check_edges);
-    for_each_case(true, check_edges);
+    require_passed(bsdf_checks(), "-edges");
 }
 
 TEST_CASE("a delta lobe is sampled only, keeps its energy and can be followed back")
 {
-    for_each_case(true, check_delta);
+    require_passed(bsdf_checks(), "-delta");
 }
 
 TEST_CASE("each lane gets the BSDF of its own material, the same bits in any company")

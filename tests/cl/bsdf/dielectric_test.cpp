@@ -1,5 +1,6 @@
 // Smooth glass: Snell's law, Fresnel's shares, radiance scaled by the index of refraction squared.
-#include "support/device_bsdf_suite.h"
+#include "check/bsdf_suite.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,6 @@
 // Lambert's law in closed form, and its sampling turned back into the random numbers that it came from.
-#include "support/device_bsdf_suite.h"
+#include "check/bsdf_suite.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,5 +1,6 @@
 // The perfect mirror: one direction, known exactly.
-#include "support/device_bsdf_suite.h"
+#include "check/bsdf_suite.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 

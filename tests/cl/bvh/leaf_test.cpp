@@ -1,8 +1,8 @@
 // The primitives of a leaf, and of a whole scene one after the other, against double precision and against each other.
 #include "math/vector.h"
-#include "src/bvh/primitive_sets.h"
+#include "check/primitive_sets.h"
 #include "support/device_evaluate.h"
-#include "support/device_traversal.h"
+#include "check/traversal.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // The tree against testing every primitive, bit for bit: the nearest primitive (the lowest of equals), the distance,
 // the barycentrics, and occlusion; on geometry and rays that break trees.
-#include "src/bvh/primitive_sets.h"
+#include "check/primitive_sets.h"
 #include "support/device_evaluate.h"
-#include "support/device_traversal.h"
+#include "check/traversal.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // Closest hits and occlusion by the tree against testing every primitive: the same bits, for every ray.
 #include "bvh/lbvh_host.h"
-#include "src/bvh/primitive_sets.h"
+#include "check/primitive_sets.h"
 #include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>

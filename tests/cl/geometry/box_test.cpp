@@ -1,5 +1,6 @@
 // The box test: it never misses what lies in a padded box, and agrees with slabs in long double elsewhere.
-#include "cl/geometry/rays.h"
+#include "check/rays.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 

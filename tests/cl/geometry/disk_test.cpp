@@ -1,5 +1,6 @@
 // The disk test against long double.
-#include "cl/geometry/rays.h"
+#include "check/rays.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,6 @@
 // One primitive of any kind against rays that start on it or go to it.
-#include "cl/geometry/rays.h"
+#include "check/rays.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 

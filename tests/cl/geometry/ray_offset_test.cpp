@@ -1,5 +1,6 @@
 // Rays that leave a surface: they do not meet it again, however grazing, and miss nothing close above it.
-#include "cl/geometry/rays.h"
+#include "check/rays.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 

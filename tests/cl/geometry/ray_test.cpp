@@ -1,5 +1,6 @@
 // Rays and hits: which rays can be traced, and which of several candidates stays.
-#include "cl/geometry/rays.h"
+#include "check/rays.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,6 @@
 // The sphere test against long double: from outside, inside and the sphere itself, small and far.
-#include "cl/geometry/rays.h"
+#include "check/rays.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,6 @@
 // The triangle test: no cracks in closed meshes, and distances and barycentrics against long double.
-#include "cl/geometry/rays.h"
+#include "check/rays.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,5 +1,5 @@
 // Triangles together leave no crack: closed meshes from inside, fans, grids; and triangles that are none are not met.
-#include "cl/geometry/closed_meshes.h"
+#include "check/closed_meshes.h"
 #include "support/device_lanes.h"
 
 #include <algorithm>

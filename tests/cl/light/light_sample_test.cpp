@@ -1,6 +1,7 @@
 // What a light sample promises whoever traces a shadow ray to it.
-#include "src/bvh/primitive_sets.h"
-#include "support/device_lights.h"
+#include "check/primitive_sets.h"
+#include "check/device_lights.h"
+#include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

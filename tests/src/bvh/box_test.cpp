@@ -1,7 +1,7 @@
 // The padded box of a primitive against double precision.
 #include "bvh/box.h"
 
-#include "primitive_sets.h"
+#include "check/primitive_sets.h"
 
 #include <catch2/catch.hpp>
 

@@ -2,7 +2,7 @@
 #include "bvh/bvh_check.h"
 
 #include "bvh/lbvh_host.h"
-#include "primitive_sets.h"
+#include "check/primitive_sets.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -3,7 +3,7 @@
 
 #include "bvh/bvh_check.h"
 #include "bvh/lbvh_host.h"
-#include "primitive_sets.h"
+#include "check/primitive_sets.h"
 #include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>

@@ -2,7 +2,7 @@
 #include "bvh/lbvh_host.h"
 
 #include "bvh/bvh_check.h"
-#include "primitive_sets.h"
+#include "check/primitive_sets.h"
 #include "util/error.h"
 
 #include <algorithm>

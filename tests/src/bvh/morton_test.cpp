@@ -1,7 +1,7 @@
 // Morton codes against a formula that takes one bit at a time from double precision.
 #include "bvh/morton.h"
 
-#include "primitive_sets.h"
+#include "check/primitive_sets.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,10 @@
-// Lights on the devices under test: samples of them, and what rays that meet them see.
+// Lights on a device: samples of them, and what rays that meet them see.
 #pragma once
 
+#include "check/device_functions.h"
+#include "check/random_words.h"
 #include "compute/device.h"
 #include "math/shared.h"
-#include "support/device_evaluate.h"
 
 #include <array>
 #include <string>
@@ -86,5 +87,4 @@ private:
 
 // Random words of samples that cover a light's two dimensions evenly; the choice of the light is random.
 std::vector<std::array<uint, 4>> even_words(std::size_t count);
-std::vector<std::array<uint, 4>> random_words(std::size_t count, unsigned seed);
 } // namespace etendue

@@ -1,15 +1,11 @@
-// Tests that every BSDF of BSDF_LIST passes, whatever it is: a new one needs no new test code for them. What is asked
-// of it are bsdf_evaluate, bsdf_pdf and bsdf_sample; its parameters, their ranges and whether it is a delta lobe come
-// from the parameter table of the materials.
-//
-// Of BSDFs with a density: the weight is f |cos| / pdf; the pdf of a sample is pdf(); the density is the Jacobian of
-// the sampling; reciprocity; the pdf integrates to 1; chi-square; albedo by sampling = by quadrature, at most 1; edges.
-// Of delta lobes: nothing to evaluate; unit directions; energy; the way back is the same.
+// BSDFs on a device, whatever they are: what is asked of one are bsdf_evaluate, bsdf_pdf and bsdf_sample; its
+// parameters, their ranges and whether it is a delta lobe come from the parameter table of the materials.
 #pragma once
 
+#include "check/device_functions.h"
+#include "check/random_words.h"
 #include "compute/device.h"
 #include "math/shared.h"
-#include "support/device_evaluate.h"
 
 #include <array>
 #include <string>
@@ -17,7 +13,7 @@
 
 namespace etendue
 {
-// A material to test.
+// A material to check.
 struct BsdfCase {
     BsdfType type;
     std::vector<float> parameters;
@@ -28,7 +24,12 @@ struct BsdfCase {
 std::vector<BsdfCase> bsdf_cases(BsdfType type);
 
 using Direction = std::array<float, 3>;
-using RandomWords = std::array<uint, 4>; // direction in two, lobe in the third
+
+// The unit vector of this cosine and azimuth.
+Direction direction(double z, double phi);
+
+// Midpoints of a grid of equal solid angles, in cosine and azimuth, over the whole sphere.
+std::vector<Direction> sphere_grid(std::size_t rows, std::size_t columns);
 
 // Unit directions on both sides, cosines 1, .9, .5, .1, .01, .001.
 std::vector<Direction> standard_directions();
@@ -56,6 +57,7 @@ public:
         bool delta;
         float radiance_scale;
     };
+    // The direction takes two words of the random numbers, the choice of a lobe the third.
     std::vector<Sample> sample(std::vector<Direction> wo, const std::vector<RandomWords>& random) const;
 
 private:
@@ -70,14 +72,4 @@ std::vector<std::vector<std::uint32_t>>
 sample_and_evaluate(const Device& device, const std::vector<BsdfCase>& cases, const std::vector<uint>& which,
                     const std::vector<Direction>& wo, const std::vector<Direction>& wi,
                     const std::vector<RandomWords>& random, std::uint32_t lanes);
-
-// The tests, each for one case.
-void check_weights(const Device& device, const BsdfCase& bsdf);
-void check_jacobian(const Device& device, const BsdfCase& bsdf);
-void check_reciprocity(const Device& device, const BsdfCase& bsdf);
-void check_pdf_integral(const Device& device, const BsdfCase& bsdf);
-void check_distribution(const Device& device, const BsdfCase& bsdf);
-void check_albedo(const Device& device, const BsdfCase& bsdf);
-void check_edges(const Device& device, const BsdfCase& bsdf);
-void check_delta(const Device& device, const BsdfCase& bsdf);
 } // namespace etendue

@@ -1,8 +1,8 @@
 // Rays and primitives for the tests of cl/geometry, and the arithmetic of their oracles in long double.
 #pragma once
 
+#include "check/device_functions.h"
 #include "math/shared.h"
-#include "support/device_evaluate.h"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Rays through primitives on the devices under test: by the tree or by testing every primitive.
+// Rays through primitives on a device: by the tree or by testing every primitive.
 #pragma once
 
 #include "bvh/bvh.h"
@@ -56,7 +56,7 @@ private:
     Bvh bvh_;
 };
 
-// The functions under test, compiled for a device and a size of the stack when they are first called. lanes 0: as many
+// The functions that trace, compiled for a device and a size of the stack when they are first called. lanes 0: as many
 // as suit the device. Rays that are not valid are inactive lanes.
 class TraversalKernels
 {

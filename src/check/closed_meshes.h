@@ -1,7 +1,7 @@
 // Closed meshes around points that are inside them, for tests that no ray gets out.
 #pragma once
 
-#include "cl/geometry/rays.h"
+#include "check/rays.h"
 
 #include <functional>
 #include <numbers>

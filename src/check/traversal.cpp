@@ -1,5 +1,5 @@
-// The kernels under test, what runs them, and rays that break traversals.
-#include "support/device_traversal.h"
+// The kernels that trace, what runs them, and rays that break traversals.
+#include "check/traversal.h"
 
 #include "bvh/lbvh_host.h"
 #include "compute/kernel.h"
@@ -19,8 +19,8 @@ namespace
 // Numbers of a ray, and of what became of it.
 constexpr std::size_t RAY_WORDS = 9, RESULT_WORDS = 7;
 
-const char* KERNELS = R"(
-#include "bvh/traverse.h"
+const char* KERNELS = "#include \"bvh/traverse.h\"\n"
+                      R"(
 
 STATIC Uint load_word(global const uint* words, uint first, uint count, uint word)
 {

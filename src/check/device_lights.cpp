@@ -1,5 +1,5 @@
-// One program for all tests of lights.
-#include "support/device_lights.h"
+// One program for all checks of lights.
+#include "check/device_lights.h"
 
 #include "geometry/distribution.h"
 
@@ -7,7 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <random>
 
 namespace etendue
 {
@@ -209,15 +208,6 @@ std::vector<std::array<uint, 4>> even_words(std::size_t count)
         words[i][2] = random_word(even_point(i)[0]);
         words[i][3] = random_word(even_point(i)[1]);
     }
-    return words;
-}
-
-std::vector<std::array<uint, 4>> random_words(std::size_t count, unsigned seed)
-{
-    std::mt19937 random(seed);
-    std::vector<std::array<uint, 4>> words(count);
-    for (auto& w : words)
-        for (uint& x : w) x = static_cast<uint>(random());
     return words;
 }
 } // namespace etendue

@@ -1,0 +1,275 @@
+// Each check of area lights is one line over all their cases; the environment has its own.
+#include "check/light_checks.h"
+
+#include "check/findings.h"
+#include "check/light_cases.h"
+#include "check/random_words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace etendue
+{
+namespace
+{
+constexpr double PI = std::numbers::pi;
+constexpr std::size_t BINS = 8;
+// Enough to see bins that are out by 2 %.
+constexpr double HISTOGRAM_SAMPLES = 300000;
+
+using Results = std::vector<CheckResult>;
+
+std::vector<Point> directions_of(const std::vector<DeviceLightSample>& samples)
+{
+    std::vector<Point> directions;
+    for (const auto& s : samples) directions.push_back(s.to_light);
+    return directions;
+}
+
+DeviceLights lights_of(const CheckContext& context, const LightCase& c, uint light_flags = 0)
+{
+    return DeviceLights(*context.device, light_of(c.primitive, light_flags, c.surface_flags), context.lanes);
+}
+
+// The mean of one over the density of samples is the solid angle.
+Results check_solid_angle(const CheckContext& context)
+{
+    WorstError error;
+    Violations violations;
+    for (const LightCase& c : light_cases()) {
+        if (c.is_lopsided) continue;
+        const auto samples = lights_of(context, c).sample(c.from, even_words(1 << 16));
+        double sum = 0;
+        std::size_t without = 0;
+        for (const auto& s : samples) {
+            without += !(s.pdf > 0);
+            sum += s.pdf > 0 ? 1 / s.pdf : 0;
+        }
+        error.set_subject(c.name);
+        error.add(std::abs(sum / static_cast<double>(samples.size()) / solid_angle(c.primitive, c.from) - 1));
+        violations.set_subject(c.name);
+        // Rounding may turn a rim of the smallest sphere away.
+        const bool may_lose = c.is_tiny && c.primitive.a.s[3] == PRIMITIVE_SPHERE;
+        violations.expect(without <= (may_lose ? samples.size() / 10000 : 0), "samples without a density");
+    }
+    return {error.result("light-solid-angle", 1e-3, "relative"), violations.result("light-solid-angle-samples")};
+}
+
+// The density integrates to 1 over all directions that meet the light.
+Results check_density_integral(const CheckContext& context)
+{
+    constexpr std::size_t DIRECTIONS = 1 << 17;
+    WorstError error;
+    Violations violations;
+    for (const LightCase& c : light_cases()) {
+        if (c.is_tiny || c.is_lopsided) continue;
+        // Directions that cover a cone around the light, or the sphere, evenly.
+        const auto named = [&](const char* part) { return c.name.find(part) != std::string::npos; };
+        const bool everywhere = named("huge") || named("near") || named("inside");
+        const Point a = point_of(c.primitive.a) - c.from;
+        const double size = c.primitive.a.s[3] == PRIMITIVE_TRIANGLE
+                                ? std::max(length(point_of(c.primitive.b) - point_of(c.primitive.a)),
+                                           length(point_of(c.primitive.c) - point_of(c.primitive.a)))
+                                : double{std::max(c.primitive.b.s[0], c.primitive.c.s[0])};
+        const double sine = everywhere ? 1 : std::min(1.0, size / length(a));
+        const double one_minus_cos = everywhere ? 2 : sine >= 1 ? 1 : sine * sine / (1 + std::sqrt(1 - sine * sine));
+        const Point axis = unit(a);
+        const auto [s, t] = complete_frame(axis);
+        std::vector<Point> directions;
+        for (std::size_t i = 0; i < DIRECTIONS; ++i) {
+            const auto [u, v] = even_point(i);
+            const double down = v * one_minus_cos, r = std::sqrt(down * (2 - down));
+            directions.push_back((1 - down) * axis + r * (std::cos(2 * PI * u) * s + std::sin(2 * PI * u) * t));
+        }
+        double integral = 0;
+        std::size_t met = 0;
+        for (const DeviceLightHit& hit : lights_of(context, c).meet(c.from, directions)) {
+            met += hit.primitive == 0;
+            integral += hit.primitive == 0 ? hit.pdf : 0;
+        }
+        integral *= 2 * PI * one_minus_cos / static_cast<double>(DIRECTIONS);
+        violations.set_subject(c.name);
+        violations.expect(met > DIRECTIONS / 50, "too few directions meet it");
+        error.set_subject(c.name);
+        error.add(std::abs(integral - 1));
+    }
+    return {error.result("light-density-integral", 4e-3, "relative"),
+            violations.result("light-density-integral-directions")};
+}
+
+// A sample lies on the light, with the radiance and the density that a ray to it finds.
+Results check_agreement(const CheckContext& context)
+{
+    Violations violations;
+    for (const LightCase& c : light_cases()) {
+        violations.set_subject(c.name);
+        const DeviceLights lights = lights_of(context, c);
+        const auto count = static_cast<std::size_t>((1 << 14) * context.effort);
+        const auto samples = lights.sample(c.from, random_words(count, context.seed + 43));
+        const auto hits = lights.meet(c.from, directions_of(samples));
+        std::size_t missed = 0;
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            violations.expect(samples[i].radiance == LIGHT_RADIANCE && samples[i].primitive == 0, "sample's radiance");
+            if (hits[i].primitive != 0) {
+                ++missed;
+                continue;
+            }
+            if (samples[i].pdf > 0)
+                violations.expect(std::abs(hits[i].pdf / samples[i].pdf - 1) <= 1e-3, "density of the ray");
+            violations.expect(hits[i].radiance == LIGHT_RADIANCE || !(samples[i].pdf > 0), "radiance of the ray");
+        }
+        // Rounding may put a sample beside the rim; of the tiniest lights it decides.
+        const bool is_tiniest = c.name.find("1e-12") != std::string::npos;
+        violations.expect(missed <= samples.size() / (is_tiniest ? 2 : c.is_tiny ? 50 : 1000), "samples beside it");
+    }
+    return {violations.result("light-agreement", Rule::bound)};
+}
+
+// Two numbers that are uniform when samples are: over the area of triangles and disks, over the cone of spheres.
+std::array<double, 2> uniform_coordinates(const LightCase& c, const DeviceLightSample& sample)
+{
+    const Primitive& p = c.primitive;
+    const Point a = point_of(p.a), b = point_of(p.b), to_a = a - c.from, on_light = c.from + sample.to_light;
+    const auto turn_and = [](double x, double y, double other) -> std::array<double, 2> {
+        const double turn = std::atan2(y, x) / (2 * PI);
+        return {turn - std::floor(turn), std::min(other, 1.0)};
+    };
+    if (p.a.s[3] == PRIMITIVE_TRIANGLE) {
+        // Barycentric coordinates b1, b2: (b1 + b2)^2 and b2 / (b1 + b2) are uniform.
+        const Point e1 = b - a, e2 = point_of(p.c) - a, normal = cross(e1, e2);
+        const double b1 = dot(cross(on_light - a, e2), normal) / dot(normal, normal);
+        const double b2 = dot(cross(e1, on_light - a), normal) / dot(normal, normal);
+        const auto clamp = [](double x) { return std::min(std::max(x, 0.0), 1.0); };
+        const bool outside = b1 < -1e-2 || b2 < -1e-2 || b1 + b2 > 1.01;
+        return {outside ? -1 : clamp(b2 / (b1 + b2)), clamp((b1 + b2) * (b1 + b2))};
+    }
+    if (p.a.s[3] == PRIMITIVE_DISK) {
+        const auto [e, f] = complete_frame(unit(b));
+        const double x = dot(on_light - a, e) / p.c.s[0], y = dot(on_light - a, f) / p.c.s[0];
+        return turn_and(x, y, x * x + y * y > 1.01 ? -1 : x * x + y * y);
+    }
+    if (length(to_a) < p.b.s[0]) {
+        const Point n = unit(on_light - a);
+        return turn_and(n[0], n[1], 0.5 * (1 + n[2]));
+    }
+    // The squared distance from the axis gives 1 - cos without cancellation.
+    const Point axis = unit(to_a), across = cross(axis, unit(sample.to_light));
+    const auto [e, f] = complete_frame(axis);
+    const double sin2 = dot(across, across), limit = std::pow(p.b.s[0] / length(to_a), 2);
+    const double v = sin2 / (1 + std::sqrt(1 - sin2)) / (limit / (1 + std::sqrt(1 - limit)));
+    return turn_and(dot(sample.to_light, e), dot(sample.to_light, f), v > 1.01 ? -1 : v);
+}
+
+Results check_distribution(const CheckContext& context)
+{
+    const auto count = static_cast<std::size_t>(HISTOGRAM_SAMPLES * context.effort);
+    const std::vector<RandomWords> random = random_words(count, context.seed + 47);
+    const std::vector<double> uniform(BINS * BINS, 1.0 / (BINS * BINS));
+    DistributionTests tests(context);
+    for (const LightCase& c : light_cases()) {
+        if (c.name.find("1e-12") != std::string::npos) continue; // floats have hundreds of points on it, no more
+        Histogram histogram(BINS, BINS);
+        for (const auto& s : lights_of(context, c).sample(c.from, random)) {
+            const auto [x, y] = uniform_coordinates(c, s);
+            histogram.add(x, y);
+        }
+        tests.add(c.name, histogram, uniform);
+    }
+    return {tests.result("light-distribution")};
+}
+
+// From behind a light is dark, exactly, unless it has two sides or is turned round.
+Results check_behind(const CheckContext& context)
+{
+    const std::vector<LightCase> seen_from_behind{{"triangle", ceiling_light(1, 0.5), {0, 2, 0}},
+                                                  {"disk", disk_light({0, 1, 0}, {0, -1, 0}, 0.5), {0.1, 2, 0}},
+                                                  {"inside of a sphere", sphere_light({0, 1, 0}, 0.5), {0.1, 1.2, 0}}};
+    Violations violations;
+    for (LightCase c : seen_from_behind)
+        for (const uint flags : {0u, LIGHT_TWO_SIDED})
+            for (const uint turned : {0u, SURFACE_FLIP_NORMAL}) {
+                c.surface_flags = turned;
+                const DeviceLights lights = lights_of(context, c, flags);
+                const auto samples = lights.sample(c.from, random_words(1 << 12, context.seed + 53));
+                const auto hits = lights.meet(c.from, directions_of(samples));
+                std::size_t lit = 0, seen = 0;
+                for (std::size_t i = 0; i < samples.size(); ++i) {
+                    lit += samples[i].pdf != 0;
+                    seen += hits[i].pdf != 0 || hits[i].radiance != Point{0, 0, 0};
+                }
+                violations.set_subject(fmt::format("{}, flags {}, turned {}", c.name, flags, turned));
+                const bool dark = flags == 0 && turned == 0;
+                violations.expect(dark ? lit == 0 : lit == samples.size(), "light of samples");
+                violations.expect(dark ? seen == 0 : seen >= samples.size() - 4, "light of rays");
+            }
+    return {violations.result("light-behind", Rule::exact)};
+}
+
+// From a point in its plane a flat light is dark; from the surface and the centre of a sphere nothing is infinite.
+Results check_plane(const CheckContext& context)
+{
+    const std::vector<LightCase> in_plane{{"triangle", ceiling_light(1, 0.5), {3, 1, 0}},
+                                          {"triangle, on it", ceiling_light(1, 0.5), {0.1, 1, 0}},
+                                          {"disk", disk_light({0, 1, 0}, {0, -1, 0}, 0.5), {3, 1, 0}}};
+    Violations violations;
+    for (const LightCase& c : in_plane)
+        for (const uint flags : {0u, LIGHT_TWO_SIDED}) {
+            violations.set_subject(c.name);
+            for (const auto& s : lights_of(context, c, flags).sample(c.from, even_words(512)))
+                violations.expect(s.pdf == 0, "light in the plane");
+        }
+    const LightCase sphere{"sphere", sphere_light({0, 0, 0}, 1)};
+    for (const double height : {1.0, 0.0, 1 - 0x1p-24, 1 + 0x1p-23}) {
+        violations.set_subject(fmt::format("sphere at height {:.9g}", height));
+        for (const auto& s : lights_of(context, sphere, LIGHT_TWO_SIDED).sample({0, height, 0}, even_words(512)))
+            violations.expect(std::isfinite(s.pdf) && s.pdf >= 0, "density not finite or negative");
+    }
+    return {violations.result("light-plane", Rule::exact)};
+}
+
+// Samples of a constant environment are uniform over the sphere, unlimited in distance, and give back their numbers.
+Results check_environment(const CheckContext& context)
+{
+    LightScene sky;
+    sky.add_environment(LIGHT_RADIANCE);
+    const auto count = static_cast<std::size_t>(HISTOGRAM_SAMPLES * context.effort);
+    const std::vector<RandomWords> random = random_words(count, context.seed + 59);
+    const auto samples = DeviceLights(*context.device, sky, context.lanes).sample({0.1, 0.2, 0.3}, random);
+    Violations violations;
+    Histogram histogram(BINS, BINS);
+    for (std::size_t i = 0; i < count; ++i) {
+        const DeviceLightSample& s = samples[i];
+        const double turn = std::atan2(s.wi[1], s.wi[0]) / (2 * PI), height = 0.5 * (1 - s.wi[2]);
+        histogram.add(turn - std::floor(turn), std::clamp(height, 0.0, 1.0));
+        violations.expect(s.t_max == std::numeric_limits<double>::infinity() && s.primitive == NO_INDEX, "distance");
+        violations.expect(s.radiance == LIGHT_RADIANCE, "radiance");
+        violations.expect(std::abs(s.pdf * 4 * PI - 1) <= 1e-6, "density");
+        violations.expect(std::abs(length(s.wi) - 1) <= 1e-6 && s.to_light == s.wi, "not of unit length");
+        const double u = (random[i][2] >> 8) * 0x1p-24, v = (random[i][3] >> 8) * 0x1p-24;
+        violations.expect(std::abs(height - v) <= 1e-6, "height");
+        violations.expect(std::hypot(s.wi[0], s.wi[1]) * std::abs(std::remainder(turn - u, 1.0)) <= 1e-6, "azimuth");
+    }
+    DistributionTests tests(context);
+    tests.add("environment", histogram, std::vector<double>(BINS * BINS, 1.0 / (BINS * BINS)));
+    return {violations.result("light-environment", Rule::bound), tests.result("light-environment-distribution")};
+}
+} // namespace
+
+std::vector<Check> light_checks()
+{
+    const auto check = [](const char* name, Results (*run)(const CheckContext&), std::size_t statistical_tests = 0) {
+        return make_check("sampling", name, run, statistical_tests);
+    };
+    return {check("light-solid-angle", check_solid_angle),
+            check("light-density-integral", check_density_integral),
+            check("light-agreement", check_agreement),
+            check("light-distribution", check_distribution, light_cases().size()),
+            check("light-behind", check_behind),
+            check("light-plane", check_plane),
+            check("light-environment", check_environment, 1)};
+}
+} // namespace etendue
