@@ -6,6 +6,7 @@
 #include "scene/scene_loader.h"
 #include "util/json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <string>
@@ -23,6 +24,15 @@ void require(bool holds, const std::string& rule)
     if (!holds) throw FuzzFinding(rule);
 }
 
+// Where a message goes on after the name of the file or the option; npos where it names neither.
+std::size_t end_of_place(const std::string& text, const std::string& file)
+{
+    for (const std::string option : {"command line: ", "-D "})
+        if (text.starts_with(option)) return option.size();
+    const std::size_t at = text.find(file);
+    return at == text.npos ? at : at + file.size();
+}
+
 // Whether action() succeeds; if not, its message must say where.
 template<class Action>
 bool succeeds(const std::string& file, Action action)
@@ -32,10 +42,10 @@ bool succeeds(const std::string& file, Action action)
         return true;
     } catch (const Error& error) {
         const std::string text = error.what();
-        const bool names_file = text.find(file) != text.npos;
-        const bool names_option = text.starts_with("command line: ") || text.starts_with("-D ");
-        require(names_file || names_option, "an error names its file: " + text);
-        require(text.size() > (names_file ? file.size() : 0) + 10, "an error says more than a place: " + text);
+        const std::size_t place = end_of_place(text, file);
+        require(place != text.npos, "an error names its file: " + text);
+        require(std::count(text.begin() + static_cast<std::ptrdiff_t>(place), text.end(), ' ') >= 2,
+                "an error says more than a place: " + text);
         return false;
     }
 }
