@@ -25,7 +25,7 @@ constexpr double FLAT_NORMAL_TOLERANCE = 1e-6;
 constexpr double SPHERE_PADDING = 1.0 + 4.0 * std::numeric_limits<float>::epsilon();
 
 // Centre and power of two that bring the largest half-extent of a box into (1/2, 1].
-Normalisation normalise(const Bounds& bounds)
+Normalisation normalise(const Bounds& bounds, const Scene& scene)
 {
     const Vec3 extent = bounds.extent();
     const double half = std::max({extent.x, extent.y, extent.z}) / 2.0;
@@ -33,7 +33,8 @@ Normalisation normalise(const Bounds& bounds)
     if (std::frexp(half, &exponent) == 0.5) --exponent;
     const double scale = std::ldexp(1.0, -exponent);
     if (!(half > 0.0 && std::isfinite(half) && std::isfinite(scale) && scale > 0.0 && is_finite(bounds.centre())))
-        throw SceneError(fmt::format("The geometry has an extent of {}, which cannot be rendered.", 2.0 * half));
+        throw SceneError(
+            fmt::format("{}: the geometry has an extent of {}, which cannot be rendered.", scene.file, 2.0 * half));
     return {bounds.centre(), scale};
 }
 
@@ -192,7 +193,7 @@ Bounds fit(PlacedShapes& shapes, const Scene& scene, bool lenient, Geometry& geo
     Bounds bounds;
     for (std::uint64_t last = 1; last > 0; dropped += last) {
         bounds = shapes.bounds();
-        geometry.normalisation = bounds.empty() ? Normalisation{scene.camera.position, 1.0} : normalise(bounds);
+        geometry.normalisation = bounds.empty() ? Normalisation{scene.camera.position, 1.0} : normalise(bounds, scene);
         last = drop_flat(shapes, scene, lenient, geometry.normalisation);
     }
     geometry.statistics.dropped_triangles = dropped;

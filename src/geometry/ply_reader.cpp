@@ -38,6 +38,7 @@ template<class Source>
 void skip_list(Source& source, const PlyProperty& list)
 {
     const std::int64_t count = source.integer(list.count_type);
+    if (count < 0) source.fail(fmt::format("list {} has {} items.", quote(list.name), count));
     for (std::int64_t i = 0; i < count; ++i) source.real(list.type);
 }
 

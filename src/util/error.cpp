@@ -23,6 +23,13 @@ std::string excerpt_with_caret(const std::string& excerpt, std::size_t offset)
 }
 } // namespace
 
+std::string without_control_characters(std::string text)
+{
+    for (char& c : text)
+        if ((static_cast<unsigned char>(c) < 0x20u && c != '\n' && c != '\t') || c == 0x7f) c = '?';
+    return text;
+}
+
 std::string format_located(const SourceLocation& where, const std::string& message)
 {
     std::string text = where.file;

@@ -22,10 +22,17 @@ struct SourceLocation {
 // "scenes/glass.json:12:19: /materials/2/roughness: <message>", then the excerpt and a caret below the column.
 std::string format_located(const SourceLocation& where, const std::string& message);
 
+// The text with a question mark for each control character but line breaks and tabs: what a file says must neither end
+// a message early nor steer the terminal.
+std::string without_control_characters(std::string text);
+
 class Error : public std::runtime_error
 {
 public:
-    explicit Error(const std::string& text, ExitCode code) : std::runtime_error(text), code_(code) {}
+    explicit Error(const std::string& text, ExitCode code)
+        : std::runtime_error(without_control_characters(text)), code_(code)
+    {
+    }
     ExitCode code() const { return code_; }
 
 private:

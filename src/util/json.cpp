@@ -74,6 +74,15 @@ std::vector<std::string> split_path(const std::string& path)
     return keys;
 }
 
+// Objects and lists in each other; 0 for a plain value.
+std::size_t depth(const Json::Value& value)
+{
+    if (!value.isObject() && !value.isArray()) return 0;
+    std::size_t deepest = 0;
+    for (const Json::Value& element : value) deepest = std::max(deepest, depth(element));
+    return deepest + 1;
+}
+
 bool is_index(const std::string& key)
 {
     return !key.empty() && key.size() < 10 && key.find_first_not_of("0123456789") == std::string::npos;
@@ -162,6 +171,7 @@ void Document::apply_override(const std::string& option)
     const std::size_t equals = option.find('=');
     if (equals == std::string::npos || equals == 0)
         throw UsageError(fmt::format("-D {}: an override is written path=value, e.g. film.size=[64,64].", option));
+    if (!is_utf8(option)) throw UsageError(fmt::format("-D {}: this option is not UTF-8.", option));
     const std::size_t value_start = equals + 4;
     Override made{Text("-D " + option, "command line"), ""};
     const auto fail = [&](std::size_t offset, const std::string& message) {
@@ -183,10 +193,15 @@ void Document::apply_override(const std::string& option)
         }
     }
 
+    // Hold the depth against the limit of files.
+    const std::vector<std::string> path = split_path(option.substr(0, equals));
+    if (path.size() + depth(value) > MAX_DEPTH)
+        fail(3, fmt::format("path and value are nested more than {} deep", MAX_DEPTH));
+
     // Walk down, adding what is missing.
     Json::Value* place = &root_;
     std::string pointer;
-    for (const std::string& key : split_path(option.substr(0, equals))) {
+    for (const std::string& key : path) {
         const std::string parent = pointer.empty() ? "the scene" : pointer;
         if (place->isString()) {
             Json::Value object(Json::objectValue);

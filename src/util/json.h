@@ -64,7 +64,8 @@ public:
     // `file` is what messages call it. An override is path=value: the path has dots (film.size, shapes.0.material) or
     // is a JSON pointer (/film/size); the value is JSON, or a string where it is not. Keys that do not exist are added;
     // a name on the way that stands for {"type": name} becomes that object. Throws SceneError for what is not JSON, for
-    // keys that are there twice, and for a path that leads nowhere; UsageError for an override without "=".
+    // keys that are there twice, and for a path that leads nowhere; UsageError for an override without "=" or not in
+    // UTF-8.
     Document(std::string text, const std::string& file, const std::vector<std::string>& overrides = {});
     Document(const Document&) = delete;
     Document& operator=(const Document&) = delete;

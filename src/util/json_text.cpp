@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -26,6 +27,30 @@ bool is_space(char c)
 bool inside_code_point(char c)
 {
     return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
+}
+
+// Bytes of the UTF-8 sequence at the start of this text (RFC 3629 section 4); 0 where there is none.
+std::size_t code_point_size(std::string_view s)
+{
+    const auto byte = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0u; };
+    const unsigned first = byte(0), second = byte(1);
+    if (first < 0x80u) return 1;
+    const std::size_t size = first < 0xC2u ? 0 : first < 0xE0u ? 2 : first < 0xF0u ? 3 : first < 0xF5u ? 4 : 0;
+    for (std::size_t i = 1; i < size; ++i)
+        if ((byte(i) & 0xC0u) != 0x80u) return 0;
+    const bool too_long = (first == 0xE0u && second < 0xA0u) || (first == 0xF0u && second < 0x90u);
+    const bool surrogate = first == 0xEDu && second >= 0xA0u;
+    const bool too_large = first == 0xF4u && second >= 0x90u;
+    return too_long || surrogate || too_large ? 0 : size;
+}
+
+// The number that \uXXXX at the start of this text stands for; -1 where it is no such escape.
+int escaped_unit(std::string_view s)
+{
+    if (s.size() < 6 || s[0] != '\\' || s[1] != 'u') return -1;
+    int unit = 0;
+    const auto [end, error] = std::from_chars(s.data() + 2, s.data() + 6, unit, 16);
+    return error == std::errc() && end == s.data() + 6 && unit >= 0 ? unit : -1;
 }
 
 // number = [-] (0 | 1-9 digits) [. digits] [e [+-] digits], RFC 8259 section 6.
@@ -135,10 +160,26 @@ private:
             if (static_cast<unsigned char>(s_[i_]) < 0x20u)
                 fail(start,
                      "the string that begins here holds a line break or control character; write \\n, \\t or \\u00XX");
-            if (s_[i_] == '\\') ++i_;
+            if (s_[i_] == '\\')
+                skip_escape();
+            else if (const std::size_t size = code_point_size(s_.substr(i_)); size > 0)
+                i_ += size - 1;
+            else
+                fail(i_, "this byte is not UTF-8; save the file in that encoding");
         }
         if (i_ >= s_.size()) fail(start, "the string that begins here does not end");
         ++i_;
+    }
+
+    // Up to the last byte of an escape. The library checks all of it but that surrogates are in pairs.
+    void skip_escape()
+    {
+        const auto is_surrogate = [](int unit, int first) { return unit >= first && unit < first + 0x400; };
+        const int unit = escaped_unit(s_.substr(i_));
+        if (is_surrogate(unit, 0xDC00) ||
+            (is_surrogate(unit, 0xD800) && !is_surrogate(escaped_unit(s_.substr(i_ + 6)), 0xDC00)))
+            fail(i_, "this half of a surrogate pair lacks the other half");
+        i_ += is_surrogate(unit, 0xD800) ? 11 : 1;
     }
 
     // A number, true, false or null: everything up to the next separator.
@@ -166,6 +207,13 @@ private:
     std::size_t i_ = 0, depth_ = 0, values_ = 0;
 };
 } // namespace
+
+bool is_utf8(std::string_view text)
+{
+    std::size_t size = 1;
+    for (std::size_t i = 0; i < text.size() && size > 0; i += size) size = code_point_size(text.substr(i));
+    return size > 0;
+}
 
 Text::Text(std::string text, std::string file) : text_(std::move(text)), file_(std::move(file)), line_starts_{0}
 {

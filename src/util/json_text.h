@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace etendue::json
@@ -12,6 +13,9 @@ namespace etendue::json
 inline constexpr std::size_t MAX_DEPTH = 64;            // objects and lists in each other
 inline constexpr std::size_t MAX_VALUES = 10'000'000;   // about 1 GB in memory
 inline constexpr std::size_t MAX_FILE_SIZE = 256 << 20; // bytes
+
+// Whether a text is UTF-8 (RFC 3629 section 4).
+bool is_utf8(std::string_view text);
 
 class Text
 {
@@ -27,8 +31,9 @@ public:
     std::size_t offset(std::size_t line, std::size_t column) const;
 
     // What the library that parses lets pass or cannot say well: no JSON at all, nesting deeper than MAX_DEPTH, more
-    // than MAX_VALUES values, unfinished strings and comments, control characters in strings, numbers that are not
-    // JSON's or do not fit a double, NaN, Infinity and other bare words. Comments are allowed. Throws SceneError.
+    // than MAX_VALUES values, unfinished strings and comments, control characters in strings, strings that are not
+    // UTF-8, half surrogate pairs, numbers that are not JSON's or do not fit a double, NaN, Infinity and other bare
+    // words. Comments are allowed. Throws SceneError.
     void check() const;
 
 private:

@@ -1,6 +1,8 @@
 // One sink for messages and the status line; the terminal is asked for its width where the system can tell.
 #include "util/log.h"
 
+#include "util/error.h"
+
 #include <cstdlib>
 #include <iostream>
 
@@ -94,7 +96,7 @@ void Log::keep_status()
 void Log::write_line(const std::string& text)
 {
     if (!status_.empty()) output_.stream << erase_line;
-    output_.stream << text << '\n' << status_ << std::flush;
+    output_.stream << without_control_characters(text) << '\n' << status_ << std::flush;
 }
 
 Log& standard_log()

@@ -111,6 +111,10 @@ TEST_CASE("every fault of a PLY text is named with its line")
           "a.ply: element face needs a list of integers \"vertex_indices\".");
     fails(format + vertex + "element face 0\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n",
           "a.ply: has no faces.");
+    fails(format + vertex +
+              "property list int int ring\nelement face 1\nproperty list uchar int vertex_indices\n"
+              "end_header\n0 0 0 -1\n3 0 0 0\n",
+          "a.ply:11: list \"ring\" has -1 items.");
     fails(TRIANGLE + "0 0 0\n1 0\n0 1 0 0 0\n3 0 1 2\n",
           "a.ply:11: expected a number with a decimal point, found the end of the line.");
     fails(TRIANGLE + "0 0 0\n1 0 0 7\n0 1 0\n3 0 1 2\n", "a.ply:11: expected the end of the line, found \"7\".");

@@ -42,3 +42,9 @@ TEST_CASE("each kind of error has its exit code", "[host]")
     CHECK(FileError("a", "x").code() == ExitCode::file);
     CHECK(FileError("a", "is lost.").what() == std::string("a: is lost."));
 }
+
+TEST_CASE("control characters of a file do not reach the terminal, nor does a zero end the message", "[host]")
+{
+    const std::string text("a\tb\nc\0d\x1b[31me\x7f\r\x1f é", 19);
+    CHECK(SceneError(text).what() == std::string("a\tb\nc?d?[31me??? é"));
+}

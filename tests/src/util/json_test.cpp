@@ -129,6 +129,20 @@ TEST_CASE("a path that leads nowhere says what is there", "[host]")
     CHECK(message_of(text, {"n"}) == "-D n: an override is written path=value, e.g. film.size=[64,64].");
 }
 
+TEST_CASE("an override is UTF-8 and no deeper than a file", "[host]")
+{
+    std::string path = "a";
+    for (std::size_t i = 1; i < json::MAX_DEPTH - 1; ++i) path += ".a";
+    const std::string canonical = json::Document("{}", "a", {path + "=[1]"}).canonical();
+    CHECK(json::Document(canonical, "b").canonical() == canonical);
+    CHECK(json::Document("{}", "a", {path + ".a=1"}).canonical().size() > 4 * json::MAX_DEPTH);
+    const std::string too_deep = "command line: path and value are nested more than 64 deep";
+    CHECK(message_of("{}", {path + "=[[1]]"}) == too_deep);
+    CHECK(message_of("{}", {path + "={\"b\": 2, \"c\": {}}"}) == too_deep);
+    CHECK(message_of("{}", {path + ".a.a=1"}) == too_deep);
+    CHECK(message_of("{}", {"a=\xff"}) == "-D a=\xff: this option is not UTF-8.");
+}
+
 TEST_CASE("the canonical text forgets comments, space and the order of keys, and nothing else", "[host]")
 {
     const auto canonical = [](const char* text) { return json::Document(text, "a").canonical(); };

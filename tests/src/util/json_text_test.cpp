@@ -40,3 +40,34 @@ TEST_CASE("the scan takes exactly the numbers of JSON", "[host]")
                             "-Infinity", "inf", "tru", "True"})
         CHECK_THROWS_AS(json::Text(bad, "a").check(), SceneError);
 }
+
+TEST_CASE("a text is UTF-8 where every code point is whole, as short as possible and no surrogate", "[host]")
+{
+    for (const char* good : {"", "a", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xee\x80\x80",
+                             "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf", "é€😀x"}) {
+        INFO(good);
+        CHECK(json::is_utf8(good));
+    }
+    for (const char* bad :
+         {"\x80", "\xbf", "\xc0\x80", "\xc1\xbf", "\xc3", "\xc3(", "\xe0\x9f\xbf", "\xe2\x82", "\xe2\x82x",
+          "\xed\xa0\x80", "\xf0\x8f\xbf\xbf", "\xf0\x9f\x98", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff", "a\xffz"})
+        CHECK_FALSE(json::is_utf8(bad));
+}
+
+TEST_CASE("strings are UTF-8, and escaped surrogates come in pairs", "[host]")
+{
+    for (const char* good : {"\"é😀\"", R"("\ud83d\ude00")", R"("\\udc00")", R"("\u0041\n\"")", "1 // latin-1: \xe4"})
+        CHECK_NOTHROW(json::Text(good, "a").check());
+    const auto message_of = [](const char* text) -> std::string {
+        try {
+            json::Text(text, "a.json").check();
+        } catch (const SceneError& e) {
+            return std::string(e.what(), std::string_view(e.what()).find('\n'));
+        }
+        return "no error";
+    };
+    CHECK(message_of("\"\xe4\"") == "a.json:1:2: this byte is not UTF-8; save the file in that encoding");
+    CHECK(message_of("[\"\xc3\xa4\xc3\"]") == "a.json:1:5: this byte is not UTF-8; save the file in that encoding");
+    for (const char* half : {R"("x\udc00")", R"("x\ud800")", R"("x\ud800\ud800")", R"("x\ud800\u0041")", R"("x\uDBFF)"})
+        CHECK(message_of(half) == "a.json:1:3: this half of a surrogate pair lacks the other half");
+}

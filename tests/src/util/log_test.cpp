@@ -90,3 +90,11 @@ TEST_CASE("a log that ends leaves the cursor on a new line")
     }
     CHECK(stream.str().ends_with("10 %\n"));
 }
+
+TEST_CASE("a message does not steer the terminal")
+{
+    std::ostringstream stream;
+    Log log({stream});
+    log.warning("The name \x1b[2J\b is odd.");
+    CHECK(stream.str() == "warning: The name ?[2J? is odd.\n");
+}
