@@ -308,6 +308,12 @@ Results check_known_misses(SharedKernels& shared, const CheckContext& context)
 }
 } // namespace
 
+std::vector<CheckResult> check_watertight(const CheckContext& context, const std::string& name, double rays)
+{
+    SharedKernels kernels;
+    return check_watertight(kernels, context, name, rays);
+}
+
 std::vector<Check> bvh_checks()
 {
     const auto kernels = std::make_shared<SharedKernels>();
