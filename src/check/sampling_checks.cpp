@@ -106,8 +106,8 @@ Results check_philox(const CheckContext& context)
     return {answers.result("philox", Rule::exact)};
 }
 
-constexpr const char* WARPS[] = {"cosine hemisphere", "uniform hemisphere", "sphere", "cone",
-                                 "triangle",          "disk",               "tent",   "gaussian"};
+constexpr const char* WARPS[] = {
+    "cosine hemisphere", "uniform hemisphere", "sphere", "cone", "triangle", "disk", "tent", "gaussian"};
 
 // Finite, and within the shape of the map of that number.
 void expect_in_shape(std::uint32_t number, const DeviceResults& out, Violations& violations)
@@ -123,8 +123,7 @@ void expect_in_shape(std::uint32_t number, const DeviceResults& out, Violations&
             violations.expect(x[i] >= 0 && y[i] >= 0 && x[i] + y[i] <= 1 + 2 * ROUNDOFF, "out of the triangle");
         if (number == 5) violations.expect(r2 <= 1 + 8 * ROUNDOFF, "out of the disk");
         if (number == 6) violations.expect(std::abs(x[i]) <= 1 && std::abs(y[i]) <= 1, "out of the tent");
-        if (number == 7)
-            violations.expect(std::sqrt(r2) <= GAUSSIAN_RADIUS * (1 + 8 * ROUNDOFF), "out of the radius");
+        if (number == 7) violations.expect(std::sqrt(r2) <= GAUSSIAN_RADIUS * (1 + 8 * ROUNDOFF), "out of the radius");
     }
 }
 
@@ -143,9 +142,8 @@ Results check_warps(const CheckContext& context, const std::string& name, std::u
         const std::vector<float> fixed(moving.size(), static_cast<float>(other) * 0x1p-24f);
         for (std::uint32_t number = 0; number < std::size(WARPS); ++number)
             for (const bool swapped : {false, true}) {
-                const DeviceResults out = call(context, "warp",
-                                               {Words{number}, parameters, swapped ? fixed : moving,
-                                                swapped ? moving : fixed});
+                const DeviceResults out = call(
+                    context, "warp", {Words{number}, parameters, swapped ? fixed : moving, swapped ? moving : fixed});
                 violations.set_subject(WARPS[number]);
                 expect_in_shape(number, out, violations);
             }

@@ -1,7 +1,7 @@
 // Light from infinitely far away: uniform over the sphere, met by every ray that meets nothing else.
-#include "check/primitive_sets.h"
 #include "check/device_lights.h"
 #include "check/light_checks.h"
+#include "check/primitive_sets.h"
 #include "support/device_checks.h"
 #include "support/device_evaluate.h"
 
@@ -24,8 +24,9 @@ LightScene sky()
 }
 } // namespace
 
-TEST_CASE("samples of a constant environment are uniform over the sphere, at an unlimited distance, and give back their "
-          "random numbers")
+TEST_CASE(
+    "samples of a constant environment are uniform over the sphere, at an unlimited distance, and give back their "
+    "random numbers")
 {
     require_passed(light_checks(), "light-environment");
 }

@@ -1,6 +1,6 @@
 // What a light sample promises whoever traces a shadow ray to it.
-#include "check/primitive_sets.h"
 #include "check/device_lights.h"
+#include "check/primitive_sets.h"
 #include "support/device_evaluate.h"
 
 #include <catch2/catch.hpp>

@@ -1,8 +1,8 @@
 // Several lights together: each is chosen as often as its table says, and densities include the choice.
-#include "check/primitive_sets.h"
 #include "check/device_lights.h"
-#include "util/statistics.h"
+#include "check/primitive_sets.h"
 #include "support/device_evaluate.h"
+#include "util/statistics.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
