@@ -2,6 +2,7 @@
 #include "command/render.h"
 
 #include "command/render_arguments.h"
+#include "command/replay.h"
 #include "image/image_io.h"
 #include "render/render_settings.h"
 #include "render/renderer.h"
@@ -145,14 +146,24 @@ void write_pictures(const RenderArguments& arguments, const Scene& scene, const 
     }
 }
 
+// The report, with a command for the first accident of each kind that shows its path.
+RenderReport with_replays(RenderReport report, const RenderArguments& arguments, const Scene& scene)
+{
+    for (HealthRecord& record : report.health)
+        if (record.first)
+            record.replay = replay_line(arguments, scene, {record.first->x, record.first->y, record.first->sample});
+    return report;
+}
+
 void report_accidents(const RenderReport& report, Log& log)
 {
     for (std::size_t kind = 0; kind < HEALTH_KINDS; ++kind) {
         const HealthRecord& record = report.health[kind];
         if (record.count == 0) continue;
-        log.warning(fmt::format(
-            "{} samples counted as zero because of {}; the first is pixel {},{} sample {} vertex {}.", record.count,
-            health_name(kind), record.first->x, record.first->y, record.first->sample, record.first->vertex));
+        log.warning(
+            fmt::format("{} samples counted as zero because of {}; the first is pixel {},{} sample {} vertex {}: {}",
+                        record.count, health_name(kind), record.first->x, record.first->y, record.first->sample,
+                        record.first->vertex, record.replay));
     }
 }
 
@@ -214,7 +225,7 @@ int render(const RenderArguments& arguments, const std::string& command_line)
 
     Renderer renderer(scene, geometry, has_aov, render_options(arguments, log));
     const double relative_error = render_film(renderer, film, render_limits(scene, arguments), log);
-    const RenderReport& report = renderer.report();
+    const RenderReport report = with_replays(renderer.report(), arguments, scene);
     if (film.total_samples() == 0) {
         log.warning("interrupted before the first sample: nothing is written.");
         return static_cast<int>(ExitCode::interrupted);

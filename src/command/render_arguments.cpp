@@ -16,10 +16,35 @@ namespace etendue
 {
 namespace
 {
-constexpr std::uint64_t MAX_SAMPLES = 1'000'000'000'000'000; // per pixel, as in a scene
 constexpr std::uint64_t MAX_SEED = ~std::uint64_t{0} >> 1;
 
-// Checks that an option is a decimal number within a range.
+// Checks that an option is a positive number of seconds.
+CLI::Validator positive_seconds()
+{
+    const auto check = [](std::string& text) -> std::string {
+        double value = 0.0;
+        if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0) return {};
+        return fmt::format("must be more than 0 seconds, is \"{}\".", text);
+    };
+    return CLI::Validator(check, "");
+}
+
+// Index of the variant of a table that an option names.
+std::size_t variant_number(const Table& table, const std::string& option, const std::string& name)
+{
+    const std::vector<std::string> names = table.variant_names();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) throw UsageError(option + ": " + unknown_name(option.substr(2), name, names));
+    return static_cast<std::size_t>(found - names.begin());
+}
+
+void set_accelerator(Scene& scene, std::size_t variant)
+{
+    scene.accelerator.type.reset();
+    if (variant > 0) scene.accelerator.type = static_cast<AcceleratorType>(variant - 1);
+}
+} // namespace
+
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t largest)
 {
     const auto check = [=](std::string& text) -> std::string {
@@ -35,18 +60,6 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t largest)
     return CLI::Validator(check, "");
 }
 
-// Checks that an option is a positive number of seconds.
-CLI::Validator positive_seconds()
-{
-    const auto check = [](std::string& text) -> std::string {
-        double value = 0.0;
-        if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0) return {};
-        return fmt::format("must be more than 0 seconds, is \"{}\".", text);
-    };
-    return CLI::Validator(check, "");
-}
-
-// Numbers between separators, exactly `count` of them.
 std::vector<int> integers(const std::string& option, const std::string& text, char separator, std::size_t count,
                           const char* expected)
 {
@@ -67,33 +80,10 @@ std::vector<int> integers(const std::string& option, const std::string& text, ch
     return values;
 }
 
-// Index of the variant of a table that an option names.
-std::size_t variant_number(const Table& table, const std::string& option, const std::string& name)
-{
-    const std::vector<std::string> names = table.variant_names();
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) throw UsageError(option + ": " + unknown_name(option.substr(2), name, names));
-    return static_cast<std::size_t>(found - names.begin());
-}
-
-void set_accelerator(Scene& scene, std::size_t variant)
-{
-    scene.accelerator.type.reset();
-    if (variant > 0) scene.accelerator.type = static_cast<AcceleratorType>(variant - 1);
-}
-} // namespace
-
-void add_render_options(CLI::App& command, RenderArguments& a)
+void add_picture_options(CLI::App& command, RenderArguments& a)
 {
     command.add_option("SCENE", a.scene, "Scene file: the native format or the course's, told apart by content")
         ->required();
-    command
-        .add_option("-o,--output", a.outputs,
-                    "File to write; may be given several times. The extension chooses the format:\n"
-                    ".exr float with every channel, .hdr, .png or .jpg tone-mapped to sRGB.\n"
-                    "Default: the scene's name with .png and .exr in the current folder")
-        ->type_name("FILE")
-        ->allow_extra_args(false);
     command
         .add_option("--device", a.device,
                     "Device: an index, platform:device, part of a name, cpu, gpu, all, a comma list,\n"
@@ -103,17 +93,10 @@ void add_render_options(CLI::App& command, RenderArguments& a)
     command.add_option("--spp", a.samples, "Samples per pixel, instead of the scene's")
         ->transform(whole_number(1, MAX_SAMPLES))
         ->type_name("N");
-    command
-        .add_option("--time", a.seconds,
-                    "Stop rendering after so many seconds: the next pass is predicted and left out when it\n"
-                    "would not fit. Without --spp the number of samples is not limited")
-        ->check(positive_seconds())
-        ->type_name("SECONDS");
     command.add_option("--seed", a.seed, "Seed of the random numbers, below 2^63, instead of the scene's")
         ->transform(whole_number(0, MAX_SEED))
         ->type_name("N");
     command.add_option("--size", a.size, "Size of the film in pixels")->type_name("WxH");
-    command.add_option("--crop", a.crop, "Render and write this rectangle of the film only")->type_name("X,Y,W,H");
     command
         .add_option("-D,--define", a.overrides,
                     "Set a value of the scene before it is read, by dots or JSON pointer, e.g.\n"
@@ -124,6 +107,29 @@ void add_render_options(CLI::App& command, RenderArguments& a)
         .add_option("--integrator", a.integrator, "normals, hemisphere, bsdf, light or path, instead of the scene's")
         ->type_name("NAME");
     command.add_option("--accelerator", a.accelerator, "lbvh, none or auto, instead of the scene's")->type_name("NAME");
+    command.add_flag("--lenient", a.lenient, "Drop zero-area and non-finite triangles, counted, instead of failing");
+    command.add_flag("--no-cache", a.no_cache, "Neither read nor write compiled kernels in the cache");
+    command.add_flag("--quiet", a.quiet, "Show warnings and errors only");
+    command.add_flag("-v,--verbose", a.verbose, "Show details");
+}
+
+void add_render_options(CLI::App& command, RenderArguments& a)
+{
+    add_picture_options(command, a);
+    command
+        .add_option("-o,--output", a.outputs,
+                    "File to write; may be given several times. The extension chooses the format:\n"
+                    ".exr float with every channel, .hdr, .png or .jpg tone-mapped to sRGB.\n"
+                    "Default: the scene's name with .png and .exr in the current folder")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command
+        .add_option("--time", a.seconds,
+                    "Stop rendering after so many seconds: the next pass is predicted and left out when it\n"
+                    "would not fit. Without --spp the number of samples is not limited")
+        ->check(positive_seconds())
+        ->type_name("SECONDS");
+    command.add_option("--crop", a.crop, "Render and write this rectangle of the film only")->type_name("X,Y,W,H");
     command
         .add_option("--specialize", a.specialize,
                     "on: kernels without what the scene does not need; off: the general kernel.\n"
@@ -146,12 +152,8 @@ void add_render_options(CLI::App& command, RenderArguments& a)
         ->check(CLI::IsMember({"0", "1", "4", "8", "16"}))
         ->type_name("N")
         ->capture_default_str();
-    command.add_flag("--lenient", a.lenient, "Drop zero-area and non-finite triangles, counted, instead of failing");
-    command.add_flag("--no-cache", a.no_cache, "Neither read nor write compiled kernels in the cache");
     command.add_flag("--fast-math", a.fast_math,
                      "An experiment: let the compiler relax floating point. The picture may be wrong, and says so");
-    command.add_flag("--quiet", a.quiet, "Show warnings and errors only");
-    command.add_flag("-v,--verbose", a.verbose, "Show details");
 }
 
 void apply_arguments(Scene& scene, const RenderArguments& a)

@@ -30,7 +30,11 @@ struct RenderArguments {
     Verbosity verbosity() const { return quiet ? Verbosity::quiet : verbose ? Verbosity::verbose : Verbosity::normal; }
 };
 
-// Declare the options.
+inline constexpr std::uint64_t MAX_SAMPLES = 1'000'000'000'000'000; // per pixel, as in a scene
+
+// Declare the options that say which picture and on which device, which other commands have too.
+void add_picture_options(CLI::App& command, RenderArguments& arguments);
+// Declare these and all others.
 void add_render_options(CLI::App& command, RenderArguments& arguments);
 
 // Change the scene as the options say: both formats alike. Throws UsageError.
@@ -41,4 +45,11 @@ PixelRect crop_of(const RenderArguments& arguments, const FilmDescription& film)
 
 // The files to write: those named, or the scene's name with .png and .exr in the current folder.
 std::vector<std::string> outputs_of(const RenderArguments& arguments);
+
+// Checks that an option is a decimal number within a range.
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t largest);
+
+// Numbers between separators, exactly `count` of them. Throws UsageError: `option` must be `expected`.
+std::vector<int> integers(const std::string& option, const std::string& text, char separator, std::size_t count,
+                          const char* expected);
 } // namespace etendue
