@@ -13,6 +13,7 @@
 #include "light/light.h"
 #include "sampling/filter.h"
 #include "sampling/mis.h"
+#include "sampling/sampler.h"
 
 typedef struct PathState {
     Mask active;
@@ -47,14 +48,14 @@ STATIC PathState idle_path(void)
 /* Draw of a role at the current vertex. */
 STATIC RandomBlock path_random(PathState* path, uint role)
 {
-    return random_block(path->stream, path->vertices * RANDOM_PER_VERTEX + role);
+    return sampler_block(path->stream, path->vertices * RANDOM_PER_VERTEX + role);
 }
 
 /* Begin paths at the camera in the lanes of `fresh`: pixel (x, y) of the whole film and sample in path->stream. */
 STATIC void path_begin(SceneView view, PathState* path, Mask fresh, Uint x, Uint y)
 {
     global const RenderSettings* s = view.settings;
-    RandomBlock random = random_block(path->stream, (Uint)(RANDOM_CAMERA));
+    RandomBlock random = sampler_block(path->stream, (Uint)(RANDOM_CAMERA));
     Vec2 offset = filter_sample(s, uniform_float(random.x), uniform_float(random.y));
     Ray ray = pinhole_ray(&s->camera, to_float(x) + 0.5 + offset.x, to_float(y) + 0.5 + offset.y, s->width, s->height);
     path->ray.origin = choose3(fresh, ray.origin, path->ray.origin);

@@ -42,6 +42,8 @@ STATIC void place_sample(SceneView view, WorkUnit unit, Uint index, Uint* x, Uin
     stream->sample_high = unit.first_sample_high;
     stream->pixel = *y * view.settings->width + *x;
     stream->sample = sample + unit.first_sample;
+    stream->sampler = view.settings->sampler;
+    stream->replicates = view.settings->replicates;
 }
 
 /* Albedo, shading normal and distance of the first surface; zero where nothing was met. */

@@ -13,11 +13,17 @@ typedef struct RandomBlock {
 typedef struct RandomStream {
     uint key_low, key_high; /* the seed; the highest bit of key_high is kept for reference renders */
     uint sample_high;
-    Uint pixel;  /* row by row over the whole film */
-    Uint sample; /* low word */
+    Uint pixel;      /* row by row over the whole film */
+    Uint sample;     /* low word */
+    uint sampler;    /* SAMPLER_* of features.h */
+    uint replicates; /* of the Sobol sequence: 1 or 2 */
 } RandomStream;
 
-/* Dimensions: one block for the camera, then two for each vertex. */
+/* Dimensions: one block for the camera, then two for each vertex. They stay far below these bits, which set apart what
+ * other samplers draw for themselves. */
+#define RANDOM_FOR_SOBOL 0x80000000u
+#define RANDOM_FOR_JITTER 0x40000000u
+#define RANDOM_FOR_ORDER 0x20000000u
 #define RANDOM_CAMERA 0u
 #define RANDOM_LIGHT 1u
 #define RANDOM_BSDF 2u

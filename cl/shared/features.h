@@ -25,6 +25,11 @@
     X(BRUTE_FORCE, none, "every primitive is tested; for a few dozen of them the fastest way")                         \
     X(LBVH, lbvh, "binary tree in Morton order, built by kernels where it is large")
 
+#define SAMPLER_LIST(X)                                                                                                \
+    X(INDEPENDENT, independent, "independent random numbers (Philox)")                                                 \
+    X(STRATIFIED, stratified, "each 64 samples of a pixel jittered in 8x8 cells")                                      \
+    X(SOBOL, sobol, "Owen-scrambled Sobol points, new ones for each dimension of a path")
+
 #define OPTION_LIST(X)                                                                                                 \
     X(VERTEX_NORMALS, vertex_normals, "shading normals interpolated over triangles")                                   \
     X(LIGHT_SAMPLING, light_sampling, "a point on a light is sampled at every vertex")                                 \
@@ -47,3 +52,5 @@ enum BsdfType { BSDF_LIST(FEATURE_ENUM_BSDF) BSDF_COUNT };
 enum LightType { LIGHT_LIST(FEATURE_ENUM_LIGHT) LIGHT_COUNT };
 #define FEATURE_ENUM_ACCELERATOR(NAME, name, text) ACCELERATOR_##NAME,
 enum AcceleratorType { ACCELERATOR_LIST(FEATURE_ENUM_ACCELERATOR) ACCELERATOR_COUNT };
+#define FEATURE_ENUM_SAMPLER(NAME, name, text) SAMPLER_##NAME,
+enum SamplerNumber { SAMPLER_LIST(FEATURE_ENUM_SAMPLER) SAMPLER_COUNT };

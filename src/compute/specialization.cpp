@@ -10,7 +10,7 @@ const std::vector<FeatureDescription>& feature_descriptions()
 #define DESCRIBE_FEATURE(NAME, name, text) {"HAS_" #NAME, #name, text},
     static const std::vector<FeatureDescription> descriptions{
         BSDF_LIST(DESCRIBE_FEATURE) LIGHT_LIST(DESCRIBE_FEATURE) SHAPE_LIST(DESCRIBE_FEATURE)
-            CAMERA_LIST(DESCRIBE_FEATURE) ACCELERATOR_LIST(DESCRIBE_FEATURE) OPTION_LIST(DESCRIBE_FEATURE)};
+            CAMERA_LIST(DESCRIBE_FEATURE) ACCELERATOR_LIST(DESCRIBE_FEATURE) SAMPLER_LIST(DESCRIBE_FEATURE) OPTION_LIST(DESCRIBE_FEATURE)};
 #undef DESCRIBE_FEATURE
     return descriptions;
 }

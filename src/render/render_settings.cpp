@@ -40,6 +40,19 @@ uint roulette_number(RouletteType type)
     return ROULETTE_OFF;
 }
 
+uint sampler_number(SamplerType type)
+{
+    switch (type) {
+    case SamplerType::stratified:
+        return SAMPLER_STRATIFIED;
+    case SamplerType::sobol:
+        return SAMPLER_SOBOL;
+    case SamplerType::independent:
+        break;
+    }
+    return SAMPLER_INDEPENDENT;
+}
+
 // Radius, standard deviation, and the part of a round Gaussian within the radius.
 real4 filter_parameters(const FilmDescription& film)
 {
@@ -76,6 +89,8 @@ RenderSettings make_render_settings(const Scene& scene, const Geometry& geometry
     settings.height = static_cast<uint>(scene.film.height);
     settings.seed_low = static_cast<uint>(scene.sampler.seed);
     settings.seed_high = static_cast<uint>(scene.sampler.seed >> 32);
+    settings.sampler = sampler_number(scene.sampler.type);
+    settings.replicates = scene.sampler.replicates;
     settings.filter = filter_number(scene.film.filter);
     settings.filter_parameters = filter_parameters(scene.film);
     set_integrator(settings, scene.integrator, !geometry.lights.empty());

@@ -24,6 +24,14 @@ void set_light(Specialization& s, uint type)
     LIGHT_LIST(SET_LIGHT_FEATURE)
 #undef SET_LIGHT_FEATURE
 }
+
+void set_sampler(Specialization& s, uint number)
+{
+#define SET_SAMPLER_FEATURE(NAME, name, text)                                                                          \
+    if (number == SAMPLER_##NAME) s.set(Feature::NAME);
+    SAMPLER_LIST(SET_SAMPLER_FEATURE)
+#undef SET_SAMPLER_FEATURE
+}
 } // namespace
 
 std::uint32_t stack_class(std::uint32_t depth)
@@ -46,6 +54,7 @@ Specialization scene_features(const Scene& scene, const Geometry& geometry, cons
     s.set(Feature::DISK, geometry.disk_count > 0);
     s.set(Feature::PINHOLE);
     s.set(settings.accelerator == ACCELERATOR_LBVH ? Feature::LBVH : Feature::BRUTE_FORCE);
+    set_sampler(s, settings.sampler);
     s.set(Feature::VERTEX_NORMALS, !geometry.normals.empty());
     s.set(Feature::LIGHT_SAMPLING, settings.sample_lights != 0);
     s.set(Feature::EMISSION_SAMPLING, settings.count_emission != 0 && !geometry.lights.empty());

@@ -75,8 +75,14 @@ IntegratorDescription parse_integrator(const Fields& scene)
 SamplerDescription parse_sampler(const Fields& scene)
 {
     const Section sampler(scene, "sampler", sampler_table());
-    return {static_cast<SamplerType>(sampler->variant()), sampler->integer("spp"), sampler->integer("seed"),
-            sampler.location()};
+    SamplerDescription description;
+    description.type = static_cast<SamplerType>(sampler->variant());
+    description.samples_per_pixel = sampler->integer("spp");
+    description.seed = sampler->integer("seed");
+    if (description.type == SamplerType::sobol)
+        description.replicates = static_cast<std::uint32_t>(sampler->integer("replicates"));
+    description.location = sampler.location();
+    return description;
 }
 
 AcceleratorDescription parse_accelerator(const Fields& scene)

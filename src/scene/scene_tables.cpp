@@ -23,6 +23,21 @@ std::vector<Variant> accelerator_variants()
     return variants;
 }
 
+std::vector<Variant> sampler_variants()
+{
+    std::vector<Variant> variants;
+#define SAMPLER_VARIANT(NAME, name, text) variants.push_back({#name, text, {}});
+    SAMPLER_LIST(SAMPLER_VARIANT)
+#undef SAMPLER_VARIANT
+    variants[SAMPLER_SOBOL].properties = {
+        {"replicates",
+         Kind::integer,
+         {1, 2},
+         "2",
+         "sequences scrambled independently, which take turns block by block: two tell the error, one does not"}};
+    return variants;
+}
+
 std::vector<Variant> camera_variants()
 {
     std::vector<Variant> variants;
@@ -196,7 +211,7 @@ const Table& sampler_table()
                              "Random numbers.",
                              {{"spp", Kind::integer, {1, 1e15}, "64", "samples per pixel"},
                               {"seed", Kind::integer, SEED, "0", "another seed gives other noise"}},
-                             {{"independent", "independent random numbers (Philox)", {}}},
+                             sampler_variants(),
                              "independent",
                              true};
     return table;

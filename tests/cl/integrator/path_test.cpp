@@ -28,6 +28,8 @@ STATIC PathState new_path(void)
     path.vertices = path.accident = (Uint)(0u);
     path.stream.key_low = path.stream.key_high = path.stream.sample_high = 0u;
     path.stream.pixel = path.stream.sample = (Uint)(0u);
+    path.stream.sampler = SAMPLER_INDEPENDENT;
+    path.stream.replicates = 1u;
     return path;
 }
 
