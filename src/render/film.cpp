@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace etendue
@@ -31,6 +32,21 @@ Vec3 xyz(const real4& v)
     return Vec3(at(v, 0), at(v, 1), at(v, 2));
 }
 
+// Mean of one channel of a block, compensation and all.
+double block_mean(const PixelBlock& block, int c)
+{
+    return (at(block.sum, c) - at(block.compensation, c)) / at(block.sum, 3);
+}
+
+// Samples of the even and the odd blocks among the first n of a pixel.
+std::array<double, 2> half_counts(std::uint64_t n)
+{
+    const std::uint64_t pairs = n / (2 * SAMPLES_PER_BLOCK), rest = n % (2 * SAMPLES_PER_BLOCK);
+    const std::uint64_t even = std::min<std::uint64_t>(rest, SAMPLES_PER_BLOCK);
+    return {static_cast<double>(pairs * SAMPLES_PER_BLOCK + even),
+            static_cast<double>(pairs * SAMPLES_PER_BLOCK + rest - even)};
+}
+
 // se^2 / (x^2 + floor^2), where 0/0 is an exact zero.
 double squared_relative_error(double standard_error, double x, double floor)
 {
@@ -39,6 +55,12 @@ double squared_relative_error(double standard_error, double x, double floor)
     return ratio * ratio;
 }
 } // namespace
+
+const char* name_of(ErrorEstimate estimate)
+{
+    static constexpr std::array<const char*, 4> names{"samples", "blocks", "halves", "none"};
+    return names.at(static_cast<std::size_t>(estimate));
+}
 
 Film::Film(int full_width, int full_height, const PixelRect& crop, bool has_aov)
     : full_width_(full_width), full_height_(full_height), crop_(crop), has_aov_(has_aov)
@@ -56,6 +78,14 @@ Film::Film(int full_width, int full_height, const PixelRect& crop, bool has_aov)
         aovs_.resize(count);
         pending_aovs_.resize(count);
     }
+}
+
+void Film::set_error_estimate(ErrorEstimate estimate)
+{
+    if (total_samples() > 0) throw std::logic_error("a film with samples cannot change how its error is estimated");
+    error_estimate_ = estimate;
+    block_means_.resize(estimate == ErrorEstimate::blocks ? pixels_.size() : 0);
+    halves_.resize(estimate == ErrorEstimate::halves ? pixels_.size() : 0);
 }
 
 std::size_t Film::index(int x, int y) const
@@ -101,6 +131,7 @@ void Film::store_tile(const PixelRect& tile, const std::vector<PixelBlock>& bloc
             pending_[i] = blocks[source];
             if (has_aov_) pending_aovs_[i] = aovs[source];
             if (at(pending_[i].sum, 3) < SAMPLES_PER_BLOCK) continue;
+            merge_replicates(i, pending_[i]);
             pixels_[i] = pixel_now(i);
             pending_[i] = PixelBlock{};
             if (!has_aov_) continue;
@@ -117,7 +148,7 @@ void Film::merge_block(Pixel& pixel, const PixelBlock& block)
     for (int c = 0; c < 3; ++c) {
         // Rounding may leave the M2 of nearly equal samples a little below zero; a NaN stays one.
         const double m2 = at(block.m2, c) < 0.0 ? 0.0 : at(block.m2, c);
-        const Moments of_block{(at(block.sum, c) - at(block.compensation, c)) / count, m2};
+        const Moments of_block{block_mean(block, c), m2};
         Moments& merged = pixel.radiance[static_cast<std::size_t>(c)];
         merged = merge_moments(merged, static_cast<double>(pixel.samples), of_block, count);
     }
@@ -133,19 +164,22 @@ void Film::add_aov(Aov& total, const PixelAov& aov)
     total.hits += at(aov.normal, 3);
 }
 
-PixelEstimate Film::estimate_of(const Pixel& pixel)
+void Film::add_to_half(Halves& halves, std::uint64_t samples_before, const PixelBlock& block)
 {
-    PixelEstimate estimate;
-    estimate.samples = pixel.samples;
-    estimate.accidents = pixel.accidents;
-    const double n = static_cast<double>(pixel.samples);
+    Vec3& sum = halves.sum[samples_before / SAMPLES_PER_BLOCK % 2];
+    sum += xyz(block.sum) - xyz(block.compensation);
+}
+
+// Before the full block is merged into its pixel.
+void Film::merge_replicates(std::size_t i, const PixelBlock& block)
+{
+    if (error_estimate_ == ErrorEstimate::halves) add_to_half(halves_[i], pixels_[i].samples, block);
+    if (error_estimate_ != ErrorEstimate::blocks) return;
+    const double blocks = static_cast<double>(pixels_[i].samples / SAMPLES_PER_BLOCK);
     for (int c = 0; c < 3; ++c) {
-        const Moments& moments = pixel.radiance[static_cast<std::size_t>(c)];
-        estimate.mean[c] = moments.mean;
-        estimate.standard_error[c] =
-            pixel.samples < 2 ? std::numeric_limits<double>::infinity() : std::sqrt(moments.m2 / (n - 1) / n);
+        Moments& merged = block_means_[i][static_cast<std::size_t>(c)];
+        merged = merge_moments(merged, blocks, {block_mean(block, c), 0.0}, 1.0);
     }
-    return estimate;
 }
 
 Film::Pixel Film::pixel_now(std::size_t i) const
@@ -162,11 +196,49 @@ Film::Aov Film::aov_now(std::size_t i) const
     return aov;
 }
 
+PixelEstimate Film::estimate_now(std::size_t i) const
+{
+    const Pixel pixel = pixel_now(i);
+    PixelEstimate estimate;
+    estimate.samples = pixel.samples;
+    estimate.accidents = pixel.accidents;
+    for (int c = 0; c < 3; ++c) estimate.mean[c] = pixel.radiance[static_cast<std::size_t>(c)].mean;
+    estimate.standard_error = standard_error_now(i, pixel);
+    return estimate;
+}
+
+// `pixel` is the pixel now, unfinished block included.
+Vec3 Film::standard_error_now(std::size_t i, const Pixel& pixel) const
+{
+    const Vec3 unknown(std::numeric_limits<double>::infinity());
+    Vec3 error = unknown;
+    if (error_estimate_ == ErrorEstimate::samples && pixel.samples >= 2) {
+        const double n = static_cast<double>(pixel.samples);
+        for (int c = 0; c < 3; ++c) error[c] = std::sqrt(pixel.radiance[static_cast<std::size_t>(c)].m2 / (n - 1) / n);
+    }
+    // An unfinished block makes the mean better than is said here.
+    const std::uint64_t blocks = pixels_[i].samples / SAMPLES_PER_BLOCK;
+    if (error_estimate_ == ErrorEstimate::blocks && blocks >= 2) {
+        const double n = static_cast<double>(blocks);
+        for (int c = 0; c < 3; ++c) error[c] = std::sqrt(block_means_[i][static_cast<std::size_t>(c)].m2 / (n - 1) / n);
+    }
+    // The weights w of the halves in the mean make w0 w1 (a - b)^2 its squared error where a half's falls with its
+    // number of samples, more where it falls faster, and (a - b)^2 / 4 for equal ones.
+    const std::array<double, 2> counts = half_counts(pixel.samples);
+    if (error_estimate_ == ErrorEstimate::halves && counts[1] > 0.0) {
+        Halves now = halves_[i];
+        add_to_half(now, pixels_[i].samples, pending_[i]);
+        error = glm::abs(now.sum[0] / counts[0] - now.sum[1] / counts[1]) * std::sqrt(counts[0] * counts[1]) /
+                static_cast<double>(pixel.samples);
+    }
+    return error;
+}
+
 PixelEstimate Film::estimate(int x, int y) const
 {
     check_tile({x, y, 1, 1});
     const std::lock_guard lock(mutex_);
-    return estimate_of(pixel_now(index(x, y)));
+    return estimate_now(index(x, y));
 }
 
 Image Film::resolve(double depth_scale) const
@@ -191,7 +263,7 @@ Image Film::resolve(double depth_scale) const
     };
     const std::lock_guard lock(mutex_);
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        const PixelEstimate estimate = estimate_of(pixel_now(i));
+        const PixelEstimate estimate = estimate_now(i);
         put3(estimate.mean);
         put3(estimate.standard_error);
         if (has_aov_) {
@@ -206,24 +278,30 @@ Image Film::resolve(double depth_scale) const
     return image;
 }
 
-double Film::relative_error() const
+std::vector<double> Film::squared_relative_errors() const
 {
     const std::lock_guard lock(mutex_);
     double sum = 0.0;
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        const Vec3 mean = estimate_of(pixel_now(i)).mean;
+        const Vec3 mean = estimate_now(i).mean;
         sum += mean.x + mean.y + mean.z;
     }
     const double values = 3.0 * static_cast<double>(pixels_.size());
     const double floor = 0.01 * sum / values;
 
-    double errors = 0.0;
+    std::vector<double> errors(pixels_.size());
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        const PixelEstimate estimate = estimate_of(pixel_now(i));
+        const PixelEstimate estimate = estimate_now(i);
         for (int c = 0; c < 3; ++c)
-            errors += squared_relative_error(estimate.standard_error[c], estimate.mean[c], floor);
+            errors[i] += squared_relative_error(estimate.standard_error[c], estimate.mean[c], floor) / 3.0;
     }
-    return std::sqrt(errors / values);
+    return errors;
+}
+
+double Film::relative_error() const
+{
+    const std::vector<double> errors = squared_relative_errors();
+    return std::sqrt(std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size()));
 }
 
 std::uint64_t Film::min_samples() const

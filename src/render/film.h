@@ -19,8 +19,20 @@ struct PixelRect {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
-// Radiance of a pixel: the mean of its samples, and the standard error of that mean. With fewer than two samples the
-// standard error is infinite: nothing is known of the variance, and no number that could be taken for one is reported.
+// What tells the error of a pixel's mean, which is up to the sampler.
+enum class ErrorEstimate {
+    samples, // the variance of its samples, which are independent
+    blocks,  // the variance of the means of its blocks, which are independent while the samples of one are not
+    halves,  // the difference of the means of its even and its odd blocks, which are independent as two halves
+    none     // nothing: its samples all depend on each other
+};
+
+// "samples" and so on.
+const char* name_of(ErrorEstimate estimate);
+
+// Radiance of a pixel: the mean of its samples, and the standard error of that mean. With fewer than two samples, full
+// blocks or halves the standard error is infinite: nothing is known of the variance, and no number that could be taken
+// for one is reported.
 struct PixelEstimate {
     Vec3 mean{0.0};
     Vec3 standard_error{0.0};
@@ -39,6 +51,11 @@ public:
     const PixelRect& crop() const { return crop_; }
     bool has_aov() const { return has_aov_; }
 
+    // Independent samples unless set otherwise; Renderer::render sets what its sampler needs. Throws std::logic_error
+    // when there are samples already.
+    void set_error_estimate(ErrorEstimate estimate);
+    ErrorEstimate error_estimate() const { return error_estimate_; }
+
     // Copy the unfinished blocks of a tile, row by row, for a launch; `aovs` comes back empty without AOVs.
     void load_tile(const PixelRect& tile, std::vector<PixelBlock>& blocks, std::vector<PixelAov>& aovs) const;
     // Take them back after the launch. Blocks that are full are merged and begin anew. The true sum of a block is
@@ -53,8 +70,10 @@ public:
     // (mean over the samples that hit something, times depth_scale; 0 where none did), and samples.Y.
     Image resolve(double depth_scale) const;
 
-    // sqrt(mean over pixels and channels of se^2 / (x^2 + (mean / 100)^2)), where mean is that of the picture; what is
-    // known exactly counts 0. Infinite while a pixel has fewer than two samples.
+    // By pixel, row by row: the mean over its channels of se^2 / (x^2 + (mean / 100)^2), where mean is that of the
+    // picture; what is known exactly counts 0. Infinite where the standard error is.
+    std::vector<double> squared_relative_errors() const;
+    // The root of their mean.
     double relative_error() const;
 
     // The fewest and the sum of samples over the pixels.
@@ -68,6 +87,11 @@ private:
         std::uint64_t samples = 0;
         std::uint64_t accidents = 0;
     };
+    // What the errors of blocks and halves are worked out from: of the merged blocks.
+    using BlockMeans = std::array<Moments, 3>;
+    struct Halves {
+        std::array<Vec3, 2> sum{Vec3(0.0), Vec3(0.0)}; // of the samples of even and odd blocks
+    };
     // Sums over the samples of the merged blocks.
     struct Aov {
         Vec3 albedo{0.0}, normal{0.0};
@@ -79,17 +103,23 @@ private:
     void check_tile(const PixelRect& tile) const;
     static void merge_block(Pixel& pixel, const PixelBlock& block);
     static void add_aov(Aov& total, const PixelAov& aov);
-    static PixelEstimate estimate_of(const Pixel& pixel);
+    static void add_to_half(Halves& halves, std::uint64_t samples_before, const PixelBlock& block);
+    void merge_replicates(std::size_t i, const PixelBlock& block);
     Pixel pixel_now(std::size_t i) const;
+    PixelEstimate estimate_now(std::size_t i) const;
+    Vec3 standard_error_now(std::size_t i, const Pixel& pixel) const;
     Aov aov_now(std::size_t i) const;
 
     int full_width_, full_height_;
     PixelRect crop_;
     bool has_aov_;
+    ErrorEstimate error_estimate_ = ErrorEstimate::samples;
     mutable std::mutex mutex_;
     std::vector<Pixel> pixels_;
     std::vector<PixelBlock> pending_;
-    std::vector<Aov> aovs_;              // empty without AOVs
-    std::vector<PixelAov> pending_aovs_; // empty without AOVs
+    std::vector<BlockMeans> block_means_; // empty unless the error comes from blocks
+    std::vector<Halves> halves_;          // empty unless the error comes from halves
+    std::vector<Aov> aovs_;               // empty without AOVs
+    std::vector<PixelAov> pending_aovs_;  // empty without AOVs
 };
 } // namespace etendue

@@ -7,6 +7,7 @@
 #include "compute/program.h"
 #include "compute/specialization.h"
 #include "math/shared.h"
+#include "render/film.h"
 
 #include <array>
 #include <cstdint>
@@ -55,6 +56,7 @@ struct RenderReport {
     double render_seconds = 0.0;         // all passes, first launch included
     double first_launch_seconds = 0.0;   // of the slowest device
     std::uint64_t samples_per_pixel = 0; // that every pixel has
+    ErrorEstimate error_estimate = ErrorEstimate::samples;
     bool interrupted = false;
     std::array<std::uint64_t, COUNT_KINDS> counts{}; // by COUNT_*
     std::array<HealthRecord, HEALTH_KINDS> health{};

@@ -107,6 +107,19 @@ RenderSettings make_render_settings(const Scene& scene, const Geometry& geometry
     return settings;
 }
 
+ErrorEstimate error_estimate_of(const Scene& scene)
+{
+    switch (scene.sampler.type) {
+    case SamplerType::stratified:
+        return ErrorEstimate::blocks;
+    case SamplerType::sobol:
+        return scene.sampler.replicates > 1 ? ErrorEstimate::halves : ErrorEstimate::none;
+    case SamplerType::independent:
+        break;
+    }
+    return ErrorEstimate::samples;
+}
+
 std::uint64_t wanted_samples(const Scene& scene)
 {
     return scene.integrator.type == IntegratorType::normals ? 1 : scene.sampler.samples_per_pixel;

@@ -3,6 +3,7 @@
 
 #include "geometry/geometry.h"
 #include "math/shared.h"
+#include "render/film.h"
 #include "scene/scene.h"
 
 namespace etendue
@@ -14,6 +15,9 @@ AcceleratorType choose_accelerator(const AcceleratorDescription& wanted, std::si
 
 // Settings of a whole render; light is sampled only where there is any.
 RenderSettings make_render_settings(const Scene& scene, const Geometry& geometry, AcceleratorType accelerator);
+
+// What tells the error of a picture of the scene: its sampler decides.
+ErrorEstimate error_estimate_of(const Scene& scene);
 
 // The samples per pixel the scene asks for; the normals integrator takes one.
 std::uint64_t wanted_samples(const Scene& scene);

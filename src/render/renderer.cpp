@@ -120,6 +120,7 @@ struct Renderer::Worker {
 Renderer::Renderer(const Scene& scene, const Geometry& geometry, bool has_aov, const RenderOptions& options)
 {
     Stopwatch watch;
+    report_.error_estimate = error_estimate_of(scene);
     for (const DeviceInfo& info : options.devices)
         workers_.push_back(std::make_unique<Worker>(info, scene, geometry, has_aov, options));
     report_.precision = options.precision;
@@ -144,6 +145,7 @@ void Renderer::render(Film& film, const RenderLimits& limits)
 {
     watch_.restart();
     paused_seconds_ = 0.0;
+    film.set_error_estimate(report_.error_estimate);
     const PixelRect crop = film.crop();
     crop_pixels_ = static_cast<std::uint64_t>(crop.width) * static_cast<std::uint64_t>(crop.height);
     std::uint64_t done = 0;

@@ -64,8 +64,9 @@ public:
     Renderer(const Scene& scene, const Geometry& geometry, bool has_aov, const RenderOptions& options);
     ~Renderer();
 
-    // Add samples [0, samples_per_pixel) to a film that has none. Returns when done, out of time, or stopped; then the
-    // pixels may have unequal numbers of samples. Call it once. Throws DeviceError.
+    // Add samples [0, samples_per_pixel) to a film that has none, and tell it how to estimate its error. Returns when
+    // done, out of time, or stopped; then the pixels may have unequal numbers of samples. Call it once. Throws
+    // DeviceError.
     void render(Film& film, const RenderLimits& limits);
 
     // Complete after render().

@@ -1,6 +1,8 @@
 // The report as JSON.
 #include "render/report.h"
 
+#include "scene/scene_tables.h"
+
 #include <json/json.h>
 
 #include <cmath>
@@ -28,6 +30,11 @@ Json::Value seconds_json(const Phases& phases)
     Json::Value json(Json::objectValue);
     for (const auto& [name, seconds] : phases) json[name] = json.get(name, 0.0).asDouble() + seconds;
     return json;
+}
+
+std::string sampler_name(const SamplerDescription& sampler)
+{
+    return sampler_table().variant_names().at(static_cast<std::size_t>(sampler.type));
 }
 
 Json::Value scene_json(const Scene& scene, const Geometry& geometry)
@@ -183,10 +190,12 @@ std::string report_json(const Scene& scene, const Geometry& geometry, const Rend
     json["etendue"] = ETENDUE_VERSION;
     json["command"] = command;
     json["scene"] = scene_json(scene, geometry);
+    json["sampler"] = sampler_name(scene.sampler);
     json["seed"] = number(scene.sampler.seed);
     json["samples_per_pixel"] = number(report.samples_per_pixel);
     json["interrupted"] = report.interrupted;
     json["relative_error"] = finite_or_null(relative_error);
+    json["error_estimate"] = name_of(report.error_estimate);
     json["accelerator"] = report.accelerator == ACCELERATOR_LBVH ? "lbvh" : "none";
     json["precision"] = precision_name(report.precision);
     json["fast_math"] = report.fast_math;
@@ -209,6 +218,8 @@ std::map<std::string, std::string> image_metadata(const Scene& scene, const Rend
     metadata["etendue:version"] = ETENDUE_VERSION;
     metadata["etendue:scene"] = scene.file;
     metadata["etendue:scene_sha256"] = scene.sha256;
+    metadata["etendue:sampler"] = sampler_name(scene.sampler);
+    metadata["etendue:error_estimate"] = name_of(report.error_estimate);
     metadata["etendue:seed"] = std::to_string(scene.sampler.seed);
     metadata["etendue:spp"] = std::to_string(report.samples_per_pixel);
     metadata["etendue:interrupted"] = report.interrupted ? "yes" : "no";
