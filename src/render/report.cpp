@@ -119,6 +119,7 @@ Json::Value device_json(const DeviceReport& device)
     json["seconds"]["compile"] = device.compile_seconds;
     json["seconds"]["first_launch"] = device.first_launch_seconds;
     json["seconds"]["render"] = device.render_seconds;
+    json["seconds"]["kernel"] = device.kernel_seconds;
     for (const BuildReport& build : device.builds) json["builds"].append(build_json(build));
     json["bvh"] = bvh_json(device.bvh);
     json["memory"] = memory_json(device);
