@@ -1,6 +1,7 @@
 // `etendue converge`: study, analyse, write, say the verdict.
 #include "command/converge.h"
 
+#include "command/command_line.h"
 #include "command/converge_arguments.h"
 #include "converge/analysis.h"
 #include "converge/study_files.h"
@@ -80,30 +81,6 @@ int converge(const ConvergeArguments& arguments, const std::string& command_line
     log.info(fmt::format("wrote {}", (std::filesystem::path(arguments.folder) / "report.html").string()));
     if (study.interrupted) return static_cast<int>(ExitCode::interrupted);
     return static_cast<int>(analysis.bad() ? ExitCode::check : ExitCode::success);
-}
-
-// A word as a shell takes it.
-std::string quoted(const std::string& word)
-{
-    const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + '\'';
-}
-
-// The command as it was given, for the report.
-std::string command_line(const CLI::App& command)
-{
-    std::string text = "etendue " + command.get_name();
-    for (const CLI::Option* option : command.get_options()) {
-        if (option->get_name() == "--help") continue;
-        for (const std::string& value : option->results()) {
-            if (!option->get_positional()) text += ' ' + option->get_name();
-            if (option->get_items_expected_max() > 0) text += ' ' + quoted(value);
-        }
-    }
-    return text;
 }
 } // namespace
 

@@ -21,7 +21,7 @@ constexpr std::uint64_t MAX_SEED = ~std::uint64_t{0} >> 1;
 
 std::string metric_name(const std::string& option, const std::string& name)
 {
-    const std::vector<std::string>& known = metric_names();
+    const std::vector<std::string>& known = error_names();
     if (std::find(known.begin(), known.end(), name) == known.end())
         throw UsageError(option + ": " + unknown_name("metric", name, known));
     return name;
@@ -113,7 +113,10 @@ void add_converge_options(CLI::App& command, ConvergeArguments& a)
     command.add_option("-D,--define", a.overrides, "Set a value of the scene in every configuration, as for render")
         ->type_name("path=value")
         ->allow_extra_args(false);
-    command.add_option("--metrics", a.metrics, "What the plots show, of mse and relmse; the first is in converge.svg")
+    command
+        .add_option("--metrics", a.metrics,
+                    "What the plots show: mse, relmse, mape, max_relative, trimmed_relmse; the first is\n"
+                    "in converge.svg")
         ->type_name("LIST")
         ->capture_default_str();
     command

@@ -7,18 +7,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace etendue
 {
 namespace
 {
-constexpr std::size_t DRAWS = 2000;
 // Estimates of the error from fewer samples are noise.
 constexpr std::uint64_t LEAST_CALIBRATION_SAMPLES = 4;
 constexpr double TOO_CONFIDENT = 1.0 / 1.1;
 
-std::vector<CurvePoint> curve_of(const RunCurve& runs, double start_seconds)
+std::vector<CurvePoint> curve_of(const RunCurve& runs, double start_seconds, const std::vector<std::string>& metrics)
 {
     std::vector<CurvePoint> curve;
     for (std::size_t k = 0; k < runs.points(); ++k) {
@@ -36,6 +34,7 @@ std::vector<CurvePoint> curve_of(const RunCurve& runs, double start_seconds)
         point.total_seconds = start_seconds + point.render_seconds;
         point.mse = mean_interval(runs.values(k, "mse"));
         point.relmse = mean_interval(runs.values(k, "relmse"));
+        for (const std::string& metric : metrics) point.shown[metric] = mean_interval(runs.values(k, metric));
         point.usable = runs.usable(k);
         curve.push_back(point);
     }
@@ -57,8 +56,7 @@ TargetTime target_time(const RunCurve& runs, const std::vector<Draw>& draws, con
 {
     TargetTime time;
     time.target = target;
-    Draw all(runs.runs());
-    std::iota(all.begin(), all.end(), std::size_t{0});
+    const Draw all = everyone(runs.runs());
     std::vector<double> seconds = runs.mean_seconds(all);
     const std::vector<double> errors = runs.mean(all, target.metric);
     time.render = find_crossing(seconds, errors, target.value);
@@ -101,23 +99,23 @@ std::vector<CalibrationRow> calibrate(const RunCurve& runs)
     return rows;
 }
 
-void fit_curve(ConfigurationAnalysis& analysis, const RunCurve& runs, const std::vector<Draw>& draws)
-{
-    analysis.slope_samples = mean_interval(runs.slopes(false));
-    analysis.slope_seconds = mean_interval(runs.slopes(true));
-    const auto fit = [&](const Draw& draw) { return fit_floor(runs.mean_samples(draw), runs.mean(draw, "mse")); };
-    Draw all(runs.runs());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    analysis.fit = fit(all);
-    analysis.exponent = bootstrap_t_interval([&](const Draw& draw) { return fit(draw).p; }, draws, 0.95);
-    analysis.efficiency = bootstrap_interval([&](const Draw& draw) { return runs.efficiency(draw); }, draws);
-}
+// The power law through the mean curve, and through those of drawn seeds.
+struct DrawnFits {
+    FloorFit all;
+    std::vector<double> exponents, floors;
+};
 
-// b of the fit at a level, with what the reference's own error adds.
-Interval floor_interval(const RunCurve& runs, const std::vector<Draw>& draws, double level, double floor_error)
+DrawnFits fit_draws(const RunCurve& runs, const std::vector<Draw>& draws)
 {
-    const auto b = [&](const Draw& draw) { return fit_floor(runs.mean_samples(draw), runs.mean(draw, "mse")).b; };
-    return bootstrap_t_interval(b, draws, level, floor_error);
+    const auto fit = [&](const Draw& draw) { return fit_floor(runs.mean_samples(draw), runs.mean(draw, "mse")); };
+    DrawnFits fits;
+    fits.all = fit(everyone(runs.runs()));
+    for (const Draw& draw : draws) {
+        const FloorFit drawn = fit(draw);
+        fits.exponents.push_back(drawn.p);
+        fits.floors.push_back(drawn.b);
+    }
+    return fits;
 }
 
 void set_variance_of_mean(ConfigurationAnalysis& analysis, const StudiedConfiguration& studied)
@@ -160,18 +158,23 @@ ConfigurationAnalysis analyse_configuration(const StudiedConfiguration& studied,
     ConfigurationAnalysis analysis;
     analysis.name = studied.prepared.configuration.name;
     if (runs.points() == 0) return analysis;
-    const std::vector<Draw> draws = bootstrap_draws(runs.runs(), DRAWS);
-    analysis.curve = curve_of(runs, studied.cold.total());
-    fit_curve(analysis, runs, draws);
+    const std::vector<Draw> draws = bootstrap_draws(runs.runs(), options.draws);
+    const DrawnFits fits = fit_draws(runs, draws);
+    const double floor_error = studied.reference->floor_error;
+    analysis.curve = curve_of(runs, studied.cold.total(), options.metrics);
+    analysis.slope_samples = mean_interval(runs.slopes(false));
+    analysis.slope_seconds = mean_interval(runs.slopes(true));
+    analysis.fit = fits.all;
+    analysis.exponent = bootstrap_t_interval(fits.all.p, fits.exponents, runs.runs(), 0.95);
+    analysis.floor = bootstrap_t_interval(fits.all.b, fits.floors, runs.runs(), 0.95, floor_error);
+    analysis.efficiency = bootstrap_interval([&](const Draw& draw) { return runs.efficiency(draw); }, draws);
     for (const Target& target : options.targets)
         analysis.targets.push_back(target_time(runs, draws, target, studied.cold.total()));
     analysis.top_share = analysis.curve.back().top_share;
     analysis.calibration = calibrate(runs);
     set_variance_of_mean(analysis, studied);
-    const double floor_error = studied.reference->floor_error;
-    analysis.floor = floor_interval(runs, draws, 0.95, floor_error);
     BiasEvidence evidence = evidence_of(studied, analysis);
-    evidence.floor = floor_interval(runs, draws, 1.0 - levels.test_alpha, floor_error);
+    evidence.floor = bootstrap_t_interval(fits.all.b, fits.floors, runs.runs(), 1.0 - levels.test_alpha, floor_error);
     analysis.verdict = judge_bias(evidence, levels);
     return analysis;
 }
@@ -199,7 +202,7 @@ Analysis analyse(const Study& study)
         analysis.configurations.push_back(
             analyse_configuration(studied, curves.back(), study.options, {analysis.test_alpha, study.options.delta}));
     }
-    analysis.ratios = ratio_matrix(analysis.configurations, curves, study.options.targets);
+    analysis.ratios = ratio_matrix(analysis.configurations, curves, study.options);
     return analysis;
 }
 

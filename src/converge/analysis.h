@@ -6,6 +6,7 @@
 #include "converge/study.h"
 #include "converge/verdict.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ struct CurvePoint {
     double render_seconds = 0.0; // mean
     double total_seconds = 0.0;  // with the cold start
     double kernel_seconds = 0.0;
-    Interval mse, relmse; // means, the reference's variance subtracted
+    Interval mse, relmse;                  // means, the reference's variance subtracted
+    std::map<std::string, Interval> shown; // of StudyOptions::metrics
     double mape = 0.0, max_relative = 0.0, top_share = 0.0;
     bool usable = false; // the measured MSE is at least FLOOR_MULTIPLE times the reference's variance
 };

@@ -146,6 +146,7 @@ Json::Value verdict_json(const BiasVerdict& verdict)
     json["floor"]["passed"] = verdict.floor_passed;
     json["tiles"]["edge"] = verdict.tile;
     json["tiles"]["p_value"] = number(verdict.tile_p_value);
+    json["tiles"]["uniform_p_value"] = number(verdict.uniform_p_value);
     json["tiles"]["worst_z"] = number(verdict.worst_tile_z);
     json["tiles"]["passed"] = verdict.tiles_passed;
     json["mean"]["relative_error"] = number(verdict.mean_error);

@@ -2,9 +2,9 @@
 #include "converge/converge_report.h"
 
 #include "converge/converge_plots.h"
-#include "converge/html_table.h"
+#include "converge/number_text.h"
 #include "converge/report_tables.h"
-#include "util/file.h"
+#include "converge/study_pictures.h"
 #include "util/html.h"
 
 #include <filesystem>
@@ -15,126 +15,93 @@ namespace etendue
 {
 namespace
 {
-// What the page adds to the style sheet that all pages share.
-const char* const STYLE = "<style>.scroll{overflow-x:auto}.plots,.pictures{display:flex;flex-wrap:wrap;gap:1rem}"
-                          ".plots>*{flex:1 1 22rem;min-width:0}.plots svg{width:100%;height:auto}"
-                          ".pictures figure{margin:0;flex:1 1 9rem;max-width:16rem}"
-                          ".pictures img{width:100%;height:auto;image-rendering:pixelated}"
-                          ".verdict{padding:.6rem 1rem;margin:.6rem 0;border-left:.5rem solid #888}"
-                          ".verdict.UNBIASED{border-color:#2a8a3e}.verdict.BIASED,.verdict.FAILED{border-color:#c22f2f}"
-                          ".verdict.UNDERPOWERED{border-color:#c98a00}</style>\n";
-
-std::string section(const std::string& title, const std::string& content)
+HtmlMark mark_of(BiasResult result)
 {
-    return "<section><h2>" + title + "</h2>\n" + content + "</section>\n";
+    switch (result) {
+    case BiasResult::unbiased:
+        return HtmlMark::good;
+    case BiasResult::biased:
+    case BiasResult::failed:
+        return HtmlMark::bad;
+    case BiasResult::underpowered:
+    case BiasResult::unknown:
+        break;
+    }
+    return HtmlMark::caution;
 }
 
-std::string paragraph(const std::string& text)
+std::string verdict_of(const ConfigurationAnalysis& configuration)
 {
-    return "<p>" + html_escape(text) + "</p>\n";
+    const BiasVerdict& verdict = configuration.verdict;
+    std::string meaning;
+    for (const std::string& reason : verdict.reasons) meaning += (meaning.empty() ? "" : " ") + reason;
+    if (verdict.result == BiasResult::unbiased && !verdict.exact)
+        meaning = fmt::format("No floor under the errors, tiles that differ as chance makes them, and no bias of the "
+                              "mean: one of {} would have been seen with 99 % certainty.",
+                              percent_text(verdict.detectable_bias));
+    return html_verdict(mark_of(verdict.result),
+                        fmt::format("{}: {}", configuration.name, bias_result_name(verdict.result)), meaning);
 }
 
 std::string verdicts(const Study& study, const Analysis& analysis)
 {
     std::string text;
-    if (study.interrupted) text += paragraph("The study was interrupted: this is what it had until then.");
-    for (const ConfigurationAnalysis& configuration : analysis.configurations) {
-        const BiasVerdict& verdict = configuration.verdict;
-        const char* const name = bias_result_name(verdict.result);
-        text += fmt::format("<div class=\"verdict {}\"><strong>{}: {}</strong>", name, html_escape(configuration.name),
-                            name);
-        if (verdict.result == BiasResult::unbiased && !verdict.exact)
-            text += fmt::format("<br>No floor under the errors, tiles as they should be, and the mean within {} of the "
-                                "reference's or a larger bias would have been seen.",
-                                percent_text(verdict.detectable_bias));
-        for (const std::string& reason : verdict.reasons) text += "<br>" + html_escape(reason);
-        text += "</div>\n";
-    }
-    text += analysis.bench_passed
-                ? paragraph("The bench measures the furnace's known error: passed.")
-                : "<div class=\"verdict FAILED\"><strong>The bench does not measure the furnace's known error: nothing "
-                  "here can be trusted.</strong></div>\n";
-    for (const std::string& warning : study.warnings) text += paragraph("Warning: " + warning);
+    if (study.interrupted)
+        text += html_verdict(HtmlMark::caution, "Interrupted", "This is what the study had until then.");
+    if (!analysis.bench_passed)
+        text += html_verdict(HtmlMark::bad, "The bench is wrong",
+                             "It does not measure the furnace's known error, so nothing here can be trusted.");
+    for (const ConfigurationAnalysis& configuration : analysis.configurations) text += verdict_of(configuration);
+    for (const std::string& warning : study.warnings) text += html_paragraph("Warning: " + warning);
     return text;
 }
 
 std::string plots(const Study& study, const Analysis& analysis)
 {
     std::string text;
-    for (const std::string& metric : study.options.metrics)
-        text += "<div class=\"plots\"><div>" + convergence_svg(study, analysis, metric, TimeAxis::render) +
-                "</div><div>" + convergence_svg(study, analysis, metric, TimeAxis::total) + "</div></div>\n";
-    return text +
-           paragraph("Means over the seeds with their 95 % intervals; the reference's variance is subtracted, and "
-                     "errors in the grey are too near to it for any conclusion.");
-}
-
-std::string pictures_of(const std::vector<StudyPicture>& pictures, const std::string& name, const std::string& folder)
-{
-    std::string text = "<h3>" + html_escape(name) + "</h3><div class=\"pictures\">";
-    for (const StudyPicture& picture : pictures) {
-        const std::string bytes = read_file((std::filesystem::path(folder) / picture.file).string());
-        text += fmt::format("<figure><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\"><figcaption>{}</figcaption>"
-                            "</figure>",
-                            data_uri("image/png", bytes), picture.width, picture.height, html_escape(picture.caption),
-                            html_escape(picture.caption));
+    for (const std::string& metric : study.options.metrics) {
+        text += html_drawing("Against the time of rendering alone.",
+                             convergence_svg(study, analysis, metric, TimeAxis::render));
+        text +=
+            html_drawing("Against the time since a cold start: loading, building the tree and compiling come first.",
+                         convergence_svg(study, analysis, metric, TimeAxis::total));
     }
-    return text + "</div>\n";
+    return text + html_paragraph("Means over the seeds with their 95 % intervals. The reference's own variance is "
+                                 "subtracted from MSE and relMSE; in the grey it is too near for any conclusion.");
 }
 
-std::string all_pictures(const Analysis& analysis, const std::vector<std::vector<StudyPicture>>& pictures,
-                         const std::string& folder)
+std::string pictures(const Study& study)
 {
     std::string text;
-    for (std::size_t i = 0; i < pictures.size(); ++i)
-        if (!pictures[i].empty()) text += pictures_of(pictures[i], analysis.configurations[i].name, folder);
-    return text;
-}
-
-std::string references(const Study& study)
-{
-    std::string text, last;
     for (const StudiedConfiguration& studied : study.configurations) {
-        if (!studied.reference || studied.reference->description == last) continue;
-        const Reference& reference = *studied.reference;
-        last = reference.description;
-        text += paragraph(fmt::format("Reference: {}{}. Its variance is {}, known to {}.", last,
-                                      reference.from_cache ? " (kept from an earlier study)" : "",
-                                      short_text(reference.floor), short_text(reference.floor_error)));
+        const std::vector<HtmlPicture> of_configuration = study_pictures(studied);
+        if (of_configuration.empty()) continue;
+        text += "<h3>" + html_escape(studied.prepared.configuration.name) + "</h3>\n" + html_figures(of_configuration);
     }
     return text;
 }
 
-std::string machine(const Study& study)
+std::string page_title(const Study& study)
 {
-    const MachineState &before = study.before, &after = study.after;
-    return paragraph(fmt::format("{}; load {:.2f} before and {:.2f} after; median clock {:.0f} and {:.0f} MHz, least "
-                                 "{:.0f} and {:.0f} MHz. The study took {:.0f} s.",
-                                 before.processor.empty() ? "Unknown processor" : before.processor, before.load_average,
-                                 after.load_average, before.median_mhz, after.median_mhz, before.least_mhz,
-                                 after.least_mhz, study.seconds));
+    const std::string& file = study.configurations.front().prepared.scene.file;
+    return "Error against run time: " + std::filesystem::path(file).filename().string();
 }
 } // namespace
 
-std::string converge_report(const Study& study, const Analysis& analysis,
-                            const std::vector<std::vector<StudyPicture>>& pictures, const std::string& folder)
+std::string converge_report(const Study& study, const Analysis& analysis)
 {
-    const Scene& scene = study.configurations.front().prepared.scene;
-    std::string body = STYLE;
-    body += "<h1>Error against run time: " + html_escape(scene.file) + "</h1>\n";
-    body += section("Verdict", verdicts(study, analysis));
-    body += section("Error against run time", plots(study, analysis));
-    if (analysis.configurations.size() > 1)
-        body += section("How many times better the row is than the column", ratio_table(analysis));
-    body += section("Time to a target", target_table(analysis));
-    body += section("Fits", fit_table(analysis));
-    body += section("The three parts of the verdict", verdict_table(analysis));
-    body += section("Pictures", all_pictures(analysis, pictures, folder));
-    body += section("How far the film's own estimate of its error is off", calibration_table(analysis));
-    body += section("Phases", phase_table(study));
-    body += section("The bench on a furnace of known error", self_check_table(study));
-    body += section("How it was measured", references(study) + setting_table(study) + machine(study) + "<pre><code>" +
-                                               html_escape(study.options.command) + "</code></pre>\n");
-    return html_page("Error against run time: " + scene.file, body);
+    std::string body = "<h1>" + html_escape(page_title(study)) + "</h1>\n";
+    body += verdicts(study, analysis);
+    body += html_section("Error against run time", plots(study, analysis));
+    if (analysis.configurations.size() > 1) body += html_section("Which is better", ratio_table(analysis));
+    body += html_section("Time to a target", target_table(analysis));
+    body += html_section("Fits", fit_table(analysis));
+    body += html_section("What the verdict rests on", verdict_table(analysis));
+    body += html_section("Pictures", pictures(study));
+    body += html_section("The film's own estimate of its error", calibration_table(analysis));
+    body += html_section("Phases", phase_tables(study));
+    body += html_section("The bench on a furnace of known error", self_check_table(study));
+    body += html_section("How it was measured", setting_list(study) + html_code(study.options.command));
+    return html_page(page_title(study), body);
 }
 } // namespace etendue

@@ -3,14 +3,11 @@
 
 #include "converge/analysis.h"
 #include "converge/study.h"
-#include "converge/study_pictures.h"
 
 #include <string>
-#include <vector>
 
 namespace etendue
 {
-// Self-contained: plots are inline SVG, pictures data URIs. `pictures` are those of write_pictures, in `folder`.
-std::string converge_report(const Study& study, const Analysis& analysis,
-                            const std::vector<std::vector<StudyPicture>>& pictures, const std::string& folder);
+// Self-contained: plots are inline SVG, pictures data URIs.
+std::string converge_report(const Study& study, const Analysis& analysis);
 } // namespace etendue

@@ -5,18 +5,23 @@
 #include "converge/fit.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace etendue
 {
-const std::vector<std::string>& metric_names()
+const std::vector<std::string>& error_names()
 {
-    static const std::vector<std::string> names{"mse", "relmse"};
+    static const std::vector<std::string> names{"mse", "relmse", "mape", "max_relative", "trimmed_relmse"};
     return names;
 }
 
 double metric_of(const ErrorRow& row, const std::string& metric)
 {
-    return metric == "mse" ? row.mse : row.relmse;
+    if (metric == "mse") return row.mse;
+    if (metric == "relmse") return row.relmse;
+    for (const MetricName& name : metric_names())
+        if (metric == name.name) return row.metrics.*name.value;
+    throw std::invalid_argument("there is no metric " + metric);
 }
 
 RunCurve::RunCurve(std::vector<const Run*> runs, double floor) : runs_(std::move(runs))

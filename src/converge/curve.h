@@ -9,10 +9,10 @@
 
 namespace etendue
 {
-// One number of each row.
+// One number of a row, by the names of image/metrics.h; of mse and relmse without the reference's variance.
 double metric_of(const ErrorRow& row, const std::string& metric);
-// "mse", "relmse".
-const std::vector<std::string>& metric_names();
+// Those that fall with the samples.
+const std::vector<std::string>& error_names();
 
 // The rows that all runs have, at which the reference's floor does not show; the means of drawn runs.
 class RunCurve

@@ -13,6 +13,7 @@ namespace etendue
 namespace
 {
 constexpr double UNBOUNDED = std::numeric_limits<double>::infinity();
+} // namespace
 
 Draw everyone(std::size_t replicates)
 {
@@ -20,7 +21,6 @@ Draw everyone(std::size_t replicates)
     std::iota(all.begin(), all.end(), std::size_t{0});
     return all;
 }
-} // namespace
 
 double mean_of(const std::vector<double>& values)
 {
@@ -71,15 +71,13 @@ Interval bootstrap_interval(const Statistic& statistic, const std::vector<Draw>&
     return {estimate, values[rank], values[values.size() - 1 - rank]};
 }
 
-Interval bootstrap_t_interval(const Statistic& statistic, const std::vector<Draw>& draws, double level,
+Interval bootstrap_t_interval(double estimate, const std::vector<double>& values, std::size_t replicates, double level,
                               double further_error)
 {
-    if (draws.empty() || draws.front().empty()) return {};
-    const std::size_t replicates = draws.front().size();
-    const double estimate = statistic(everyone(replicates));
-    if (replicates == 1) return {estimate, -UNBOUNDED, UNBOUNDED};
+    if (!std::isfinite(estimate)) return {};
+    if (replicates < 2) return {estimate, -UNBOUNDED, UNBOUNDED};
     RunningStatistics spread;
-    for (const Draw& draw : draws) spread.add(statistic(draw));
+    for (const double value : values) spread.add(value);
     const double count = static_cast<double>(replicates);
     const double error = std::sqrt(spread.variance() * count / (count - 1) + further_error * further_error);
     if (!std::isfinite(error)) return {estimate, -UNBOUNDED, UNBOUNDED};

@@ -35,11 +35,14 @@ using Statistic = std::function<double(const Draw&)>;
 // put at whichever end widens the interval.
 Interval bootstrap_interval(const Statistic& statistic, const std::vector<Draw>& draws, double level = 0.95);
 
-// The same with Student's quantile times the bootstrap's standard deviation, widened by sqrt(R / (R - 1)): of few
-// replicates percentiles are too narrow, and far levels are out of their reach. `further_error` is a standard deviation
-// that all replicates share.
-Interval bootstrap_t_interval(const Statistic& statistic, const std::vector<Draw>& draws, double level,
+// An interval from a statistic of all replicates and its values for draws, by Student's quantile times the standard
+// deviation of the values, widened by sqrt(R / (R - 1)): of few replicates percentiles are too narrow, and far levels
+// are out of their reach. `further_error` is a standard deviation that all replicates share.
+Interval bootstrap_t_interval(double estimate, const std::vector<double>& values, std::size_t replicates, double level,
                               double further_error = 0.0);
+
+// Every replicate once.
+Draw everyone(std::size_t replicates);
 
 // The value below which a share of the values lies, by linear interpolation; NaN of none.
 double quantile(std::vector<double> values, double share);

@@ -1,7 +1,7 @@
-// Numbers into cells.
+// What the errors came to, in cells.
 #include "converge/report_tables.h"
 
-#include "converge/html_table.h"
+#include "converge/number_text.h"
 #include "util/html.h"
 
 #include <cmath>
@@ -12,28 +12,25 @@ namespace etendue
 {
 namespace
 {
-std::string mark(bool passed)
-{
-    return passed ? "passed" : "<strong>not passed</strong>";
-}
+using Rows = std::vector<std::vector<HtmlCell>>;
 
-std::string note(const std::string& text)
+HtmlCell judged(const std::string& text, bool passed)
 {
-    return "<p class=\"note\">" + html_escape(text) + "</p>\n";
+    return {text, passed ? HtmlMark::good : HtmlMark::bad};
 }
 
 std::string ratio_cell(const Ratio& ratio)
 {
-    if (!ratio.known()) return "no common target";
-    if (!ratio.target) return interval_text(ratio.value);
-    return fmt::format("{} (time to {} {:g})", interval_text(ratio.value), ratio.target->metric, ratio.target->value);
+    if (ratio.target && ratio.known())
+        return fmt::format("{} to {} {:g}", interval_text(ratio.value), ratio.target->metric, ratio.target->value);
+    return ratio.known() ? interval_text(ratio.value) : "no common target";
 }
 
 std::string crossing_cell(const Crossing& crossing, const Interval& band)
 {
     switch (crossing.kind) {
     case Crossing::Kind::before_first:
-        return "below " + seconds_text(crossing.x);
+        return "< " + seconds_text(crossing.x);
     case Crossing::Kind::not_reached:
         return "not reached";
     case Crossing::Kind::at:
@@ -42,137 +39,82 @@ std::string crossing_cell(const Crossing& crossing, const Interval& band)
     if (!std::isfinite(band.low) || !std::isfinite(band.high)) return seconds_text(crossing.x);
     return fmt::format("{:.3g} s [{:.3g}, {:.3g}]", crossing.x, band.low, band.high);
 }
-
-std::vector<std::string> start_cells(const std::string& name, const StartSeconds& s)
-{
-    return {name,
-            seconds_text(s.load),
-            seconds_text(s.geometry),
-            seconds_text(s.open),
-            seconds_text(s.upload),
-            seconds_text(s.bvh),
-            seconds_text(s.compile),
-            seconds_text(s.first_launch),
-            seconds_text(s.total())};
-}
 } // namespace
 
 std::string ratio_table(const Analysis& analysis)
 {
     std::vector<std::string> head{""};
-    for (const auto& configuration : analysis.configurations) head.push_back(html_escape(configuration.name));
-    HtmlTable table(head);
+    for (const auto& configuration : analysis.configurations) head.push_back("than " + configuration.name);
+    Rows rows;
     for (std::size_t i = 0; i < analysis.ratios.size(); ++i) {
-        std::vector<std::string> row{head[i + 1]};
+        std::vector<HtmlCell> row{analysis.configurations[i].name};
         for (std::size_t j = 0; j < analysis.ratios.size(); ++j)
-            row.push_back(i == j ? "1" : ratio_cell(analysis.ratios[i][j]));
-        table.add(row);
+            row.emplace_back(i == j ? "1" : ratio_cell(analysis.ratios[i][j]));
+        rows.push_back(row);
     }
-    return table.html() + note("Efficiency is 1 / (MSE x seconds of rendering), with 95 % intervals by bootstrap over "
-                               "the seeds; where slopes differ, times to a target are compared instead.");
+    return html_table("How many times better the row is, by 1 / (MSE × seconds of rendering), with 95 % intervals by "
+                      "bootstrap over the seeds. Where slopes differ, by the time to a target.",
+                      head, rows);
 }
 
 std::string target_table(const Analysis& analysis)
 {
-    HtmlTable table({"configuration", "target", "seconds of rendering", "seconds from a cold start"});
+    Rows rows;
     for (const auto& configuration : analysis.configurations)
         for (const TargetTime& time : configuration.targets)
-            table.add({html_escape(configuration.name),
-                       fmt::format("{} {:g}", html_escape(time.target.metric), time.target.value),
-                       crossing_cell(time.render, time.render_band), crossing_cell(time.total, time.total_band)});
-    return table.html();
+            rows.push_back({configuration.name, fmt::format("{} {:g}", time.target.metric, time.target.value),
+                            crossing_cell(time.render, time.render_band), crossing_cell(time.total, time.total_band)});
+    return html_table("Between checkpoints straight in log-log; 95 % intervals by bootstrap over the seeds.",
+                      {"configuration", "target", "rendering", "from a cold start"}, rows);
 }
 
 std::string fit_table(const Analysis& analysis)
 {
-    HtmlTable table({"configuration", "slope on samples", "slope on seconds", "p", "b", "efficiency",
-                     "MSE in the worst 0.1 % of pixels", "variance of the mean over the film's estimate"});
+    Rows rows;
     for (const auto& c : analysis.configurations)
-        table.add({html_escape(c.name), interval_text(c.slope_samples), interval_text(c.slope_seconds),
-                   interval_text(c.exponent), interval_text(c.floor), interval_text(c.efficiency),
-                   percent_text(c.top_share), short_text(c.variance_of_mean / c.variance_of_mean_by_film)});
-    return table.html() +
-           note("Slopes of log2 MSE, each seed by itself; independent samples must have -1 on samples, "
-                "while seconds hold the launches' overhead too. p and b: MSE = a N^-p + b. All intervals "
-                "are at 95 %.");
+        rows.push_back({c.name, interval_text(c.slope_samples), interval_text(c.slope_seconds),
+                        interval_text(c.exponent), interval_text(c.floor), interval_text(c.efficiency),
+                        percent_text(c.top_share), short_text(c.variance_of_mean / c.variance_of_mean_by_film)});
+    return html_table("Slopes of log₂ MSE, each seed by itself: −1 on samples where they are independent; seconds hold "
+                      "the overhead of short launches too. p and b: MSE = a N⁻ᵖ + b. Efficiency: 1 / (MSE × seconds). "
+                      "95 % intervals. Fireflies: share of the MSE in the worst 0.1 % of the pixels. Spread of the "
+                      "mean: its variance between seeds over the films' estimate, 1 where pixels are independent.",
+                      {"configuration", "slope on samples", "slope on seconds", "p", "b", "efficiency", "fireflies",
+                       "spread of the mean"},
+                      rows);
 }
 
 std::string verdict_table(const Analysis& analysis)
 {
-    HtmlTable table({"configuration", "floor b", "tiles, p of uniformity", "worst tile", "mean", "z", "allowed z",
-                     "detectable bias"});
+    Rows rows;
     for (const auto& c : analysis.configurations) {
         const BiasVerdict& v = c.verdict;
-        table.add({html_escape(c.name), interval_text(v.floor) + ", " + mark(v.floor_passed),
-                   short_text(v.tile_p_value) + ", " + mark(v.tiles_passed), short_text(v.worst_tile_z),
-                   percent_text(v.mean_error) + ", " + mark(v.mean_passed), short_text(v.z), short_text(v.critical),
-                   percent_text(v.detectable_bias)});
+        rows.push_back({c.name, judged(interval_text(v.floor), v.floor_passed),
+                        judged(short_text(v.tile_p_value), v.tiles_passed), short_text(v.uniform_p_value),
+                        short_text(v.worst_tile_z), judged(fmt::format("{:+.2g} %", 100 * v.mean_error), v.mean_passed),
+                        short_text(v.z), short_text(v.critical), percent_text(v.detectable_bias)});
     }
-    return table.html() +
-           note(fmt::format("Each test at the level {:.2g}, so that all together cry wolf once in a thousand studies; "
-                            "the interval of b is at that level too.",
-                            analysis.test_alpha));
+    return html_table(
+        fmt::format("Each test is at the level {:.2g}, the interval of b too, so that all together are wrong once in a "
+                    "thousand studies. Tiles: whether Welch's p-values have too many small ones, and whether they are "
+                    "uniform at all. z: of the picture's mean, the worst channel.",
+                    analysis.test_alpha),
+        {"configuration", "floor b", "tiles, p", "uniform, p", "worst tile z", "mean", "z", "allowed",
+         "detectable bias"},
+        rows);
 }
 
 std::string calibration_table(const Analysis& analysis)
 {
-    HtmlTable table({"configuration", "samples", "estimates", "median", "5 %", "95 %", "more than 10 % too small"});
+    Rows rows;
     for (const auto& configuration : analysis.configurations)
         for (const auto& [samples, c] : configuration.calibration)
-            table.add({html_escape(configuration.name), samples > 0.0 ? fmt::format("{:g}", samples) : "all",
-                       std::to_string(c.count), short_text(c.median), short_text(c.low), short_text(c.high),
-                       percent_text(c.too_confident)});
-    return table.html() + note("The relative error that the film estimates without a reference, over the one that "
-                               "there is. 1 is right; "
-                               "below 1 a render that stops at an error stops too early.");
-}
-
-std::string phase_table(const Study& study)
-{
-    HtmlTable table({"configuration", "load", "geometry", "open device", "upload", "BVH", "compile", "first launch",
-                     "all before the first sample"});
-    HtmlTable rendering(
-        {"configuration and seed", "render", "kernels, device's clock", "looking, not counted", "rays/s"});
-    for (const StudiedConfiguration& studied : study.configurations) {
-        const std::string name = html_escape(studied.prepared.configuration.name);
-        table.add(start_cells(name + ", cold", studied.cold));
-        if (!studied.runs.empty())
-            table.add(start_cells(name + ", kernels kept", studied.runs.back().measurement.start));
-        for (const Run& run : studied.runs) {
-            const ErrorRow& last = run.rows.back();
-            rendering.add({fmt::format("{}, {}", name, run.seed), seconds_text(last.render_seconds),
-                           seconds_text(last.kernel_seconds), seconds_text(run.measurement.look_seconds),
-                           short_text(static_cast<double>(last.rays) / last.render_seconds)});
-        }
-    }
-    return table.html() + rendering.html();
-}
-
-std::string self_check_table(const Study& study)
-{
-    HtmlTable table({"known number", "expected", "found", "standard error", ""});
-    for (const SelfCheckResult& r : study.self_check)
-        table.add({html_escape(r.name), fmt::format("{:.6g}", r.expected), fmt::format("{:.6g}", r.found),
-                   short_text(r.standard_error), mark(r.passed)});
-    return table.html();
-}
-
-std::string setting_table(const Study& study)
-{
-    HtmlTable table({"setting", ""});
-    const Scene& scene = study.configurations.front().prepared.scene;
-    table.add({"picture", fmt::format("{} x {} pixels", scene.film.width, scene.film.height)});
-    table.add({"checkpoints", study.options.checkpoints.text()});
-    table.add({"seeds", fmt::format("{} from {}", study.options.seeds, study.options.first_seed)});
-    table.add({"scene SHA-256", "<code>" + scene.sha256 + "</code>"});
-    table.add({"epsilon of relMSE",
-               fmt::format("{:g} of the reference's mean", study.options.metric_settings.relative_epsilon)});
-    for (const StudiedConfiguration& studied : study.configurations) {
-        std::string devices;
-        for (const DeviceInfo& device : studied.prepared.options.devices)
-            devices += (devices.empty() ? "" : " + ") + device.name + ", " + device.driver_version;
-        table.add({"configuration", html_escape(studied.prepared.configuration.text() + " on " + devices)});
-    }
-    return table.html();
+            rows.push_back({configuration.name, samples > 0.0 ? fmt::format("{:g}", samples) : "all",
+                            std::to_string(c.count), short_text(c.median), short_text(c.low), short_text(c.high),
+                            percent_text(c.too_confident)});
+    return html_table(
+        "The relative error that the film estimates without a reference, over the one that there is: 1 is "
+        "right, and below 1 a render that stops at an error stops too early.",
+        {"configuration", "samples", "estimates", "median", "5 %", "95 %", "more than 10 % too small"}, rows);
 }
 } // namespace etendue

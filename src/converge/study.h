@@ -17,7 +17,7 @@
 namespace etendue
 {
 struct Target {
-    std::string metric = "relmse"; // relmse, mse
+    std::string metric = "relmse"; // a name of error_names()
     double value = 1e-2;
 };
 
@@ -35,6 +35,7 @@ struct StudyOptions {
     MetricSettings metric_settings;
     double family_alpha = 1e-3; // of all parts of all verdicts together
     double delta = 0.005;       // relative bias that must be seen
+    std::size_t draws = 2000;   // of bootstraps
     std::string command;        // as the user gave it
     std::function<bool()> stop = [] { return false; };
 };

@@ -32,7 +32,7 @@ void write_study(const Study& study, const Analysis& analysis, const std::string
     write_file(path("converge.png"), svg_png(render));
     write_file(path("converge_total.svg"), total);
     write_file(path("converge_total.png"), svg_png(total));
-    const auto pictures = write_pictures(study, folder);
-    write_file(path("report.html"), converge_report(study, analysis, pictures, folder));
+    write_study_images(study, folder);
+    write_file(path("report.html"), converge_report(study, analysis));
 }
 } // namespace etendue

@@ -4,7 +4,6 @@
 #include "converge/verdict.h"
 #include "image/false_color.h"
 #include "image/image_io.h"
-#include "image/welch.h"
 
 #include <cmath>
 #include <filesystem>
@@ -15,80 +14,85 @@ namespace etendue
 {
 namespace
 {
-class Writer
+constexpr int SCALE_STEPS = 16;
+
+Image image_of(const StudiedConfiguration& studied, const Pixels& mean, const Pixels& variance)
 {
-public:
-    Writer(const StudiedConfiguration& studied, const std::string& folder)
-        : studied_(studied), folder_(folder), film_(studied.prepared.scene.film)
-    {
-    }
+    const FilmDescription& film = studied.prepared.scene.film;
+    return image_of(mean, variance, film.width, film.height);
+}
 
-    std::vector<StudyPicture> write()
-    {
-        const Pixels mean = studied_.pool.mean();
-        const Image result = image_of(mean, studied_.pool.variance_of_mean(), film_.width, film_.height);
-        write_image(result, path(".exr"));
-        put("mean over the seeds", "", result, shown());
-        const Reference& reference = *studied_.reference;
-        if (reference.kind == Reference::Kind::none) return pictures_;
-        const Image truth = image_of(reference.mean, reference.variance, film_.width, film_.height);
-        write_image(truth, path("_reference.exr"));
-        put("reference", "_reference", truth, shown());
-        const double scale = error_scale(mean, reference.mean);
-        put(fmt::format("signed error, full colour at {:.3g}", scale), "_error", signed_error(mean, scale), {});
-        put("p-values of tiles", "_p_values", p_values(), {});
-        return pictures_;
-    }
+HtmlPicture picture_of(const Image& image, const WriteOptions& options, const std::string& caption,
+                       const std::string& description)
+{
+    return {caption, description, "image/png", png_bytes(image, options), image.width, image.height};
+}
 
-private:
-    WriteOptions shown() const { return {film_.tone_map, film_.exposure}; }
-    std::string name(const std::string& suffix) const { return studied_.prepared.configuration.name + suffix; }
-    std::string path(const std::string& suffix) const
-    {
-        return (std::filesystem::path(folder_) / name(suffix)).string();
+// Three standard deviations of the errors.
+double error_scale(const Pixels& mean, const Pixels& reference)
+{
+    double squares = 0.0;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        const Vec3 error = mean[i] - reference[i];
+        squares += glm::dot(error, error) / 3.0;
     }
+    const double scale = 3.0 * std::sqrt(squares / static_cast<double>(mean.size()));
+    return scale > 0.0 ? scale : 1.0;
+}
 
-    void put(const std::string& caption, const std::string& suffix, const Image& image, const WriteOptions& options)
-    {
-        write_image(image, path(suffix + ".png"), options);
-        pictures_.push_back({caption, name(suffix + ".png"), image.width, image.height});
-    }
+HtmlPicture error_picture(const StudiedConfiguration& studied, const Pixels& mean)
+{
+    const Pixels& reference = studied.reference->mean;
+    const double scale = error_scale(mean, reference);
+    HtmlPicture picture =
+        picture_of(signed_error_image(image_of(studied, mean, {}), image_of(studied, reference, {}), scale), {},
+                   "Signed error, of the channel that is off most",
+                   "Signed error: blue where the mean is darker than the reference, red where it is brighter");
+    std::vector<std::string> colors;
+    for (int i = 0; i <= SCALE_STEPS; ++i) colors.push_back(css_color(signed_error_color(2.0 * i / SCALE_STEPS - 1.0)));
+    picture.note = html_scale(colors, fmt::format("−{:.3g}", scale), "0", fmt::format("+{:.3g}", scale));
+    return picture;
+}
 
-    // Three standard deviations of the errors.
-    static double error_scale(const Pixels& mean, const Pixels& reference)
-    {
-        double squares = 0.0;
-        for (std::size_t i = 0; i < mean.size(); ++i) {
-            const Vec3 error = mean[i] - reference[i];
-            squares += glm::dot(error, error) / 3.0;
-        }
-        const double scale = 3.0 * std::sqrt(squares / static_cast<double>(mean.size()));
-        return scale > 0.0 ? scale : 1.0;
-    }
-
-    Image signed_error(const Pixels& mean, double scale) const
-    {
-        return signed_error_image(image_of(mean, {}, film_.width, film_.height),
-                                  image_of(studied_.reference->mean, {}, film_.width, film_.height), scale);
-    }
-
-    Image p_values() const
-    {
-        return p_value_image(compare_tiles(studied_.pool, *studied_.reference, film_.width, film_.height));
-    }
-
-    const StudiedConfiguration& studied_;
-    std::string folder_;
-    const FilmDescription& film_;
-    std::vector<StudyPicture> pictures_;
-};
+HtmlPicture p_value_picture(const StudiedConfiguration& studied)
+{
+    const FilmDescription& film = studied.prepared.scene.film;
+    const WelchTiles tiles = compare_tiles(studied.pool, *studied.reference, film.width, film.height);
+    HtmlPicture picture = picture_of(p_value_image(tiles), {}, "p-values: the least of three channels in each tile",
+                                     "p-values of tiles: light where the difference is more than noise explains");
+    std::vector<std::string> colors;
+    for (int i = 0; i <= SCALE_STEPS; ++i)
+        colors.push_back(css_color(p_value_color(std::pow(10.0, -6.0 * i / SCALE_STEPS))));
+    picture.note = html_scale(colors, "p = 1", "0.001", "10⁻⁶ and less");
+    return picture;
+}
 } // namespace
 
-std::vector<std::vector<StudyPicture>> write_pictures(const Study& study, const std::string& folder)
+std::vector<HtmlPicture> study_pictures(const StudiedConfiguration& studied)
 {
-    std::vector<std::vector<StudyPicture>> pictures;
-    for (const StudiedConfiguration& studied : study.configurations)
-        pictures.push_back(studied.pool.count() > 0 ? Writer(studied, folder).write() : std::vector<StudyPicture>());
+    if (studied.pool.count() == 0) return {};
+    const FilmDescription& film = studied.prepared.scene.film;
+    const WriteOptions shown{film.tone_map, film.exposure};
+    const Pixels mean = studied.pool.mean();
+    std::vector<HtmlPicture> pictures;
+    pictures.push_back(picture_of(image_of(studied, mean, {}), shown,
+                                  fmt::format("Mean over {} seeds", studied.pool.count()), "The mean over the seeds"));
+    if (studied.reference->kind == Reference::Kind::none) return pictures;
+    pictures.push_back(picture_of(image_of(studied, studied.reference->mean, {}), shown, "Reference", "The reference"));
+    pictures.push_back(error_picture(studied, mean));
+    if (studied.pool.count() > 1) pictures.push_back(p_value_picture(studied));
     return pictures;
+}
+
+void write_study_images(const Study& study, const std::string& folder)
+{
+    for (const StudiedConfiguration& studied : study.configurations) {
+        const std::string stem = (std::filesystem::path(folder) / studied.prepared.configuration.name).string();
+        if (studied.pool.count() > 0)
+            write_image(image_of(studied, studied.pool.mean(), studied.pool.variance_of_mean()), stem + ".exr");
+        if (studied.reference && studied.reference->kind != Reference::Kind::none)
+            write_image(image_of(studied, studied.reference->mean, studied.reference->variance),
+                        stem + "_reference.exr");
+    }
 }
 } // namespace etendue

@@ -2,19 +2,18 @@
 #pragma once
 
 #include "converge/study.h"
+#include "util/html.h"
 
 #include <string>
 #include <vector>
 
 namespace etendue
 {
-struct StudyPicture {
-    std::string caption;
-    std::string file; // within the folder
-    int width = 0, height = 0;
-};
+// The mean over the seeds, the reference, the signed error and the p-values of the tiles; nothing before a run is
+// complete.
+std::vector<HtmlPicture> study_pictures(const StudiedConfiguration& studied);
 
-// Write, for each configuration that has finished a run, the mean over its seeds as EXR and PNG, the reference, the
-// signed error and the p-values of the tiles as PNG; returns the PNG files by configuration. Throws FileError.
-std::vector<std::vector<StudyPicture>> write_pictures(const Study& study, const std::string& folder);
+// Write the means over the seeds as NAME.exr and the references as NAME_reference.exr, with stderr.R/G/B. Throws
+// FileError.
+void write_study_images(const Study& study, const std::string& folder);
 } // namespace etendue

@@ -34,12 +34,16 @@ double rounding_variance(double value)
 std::vector<PixelMoments> moments_of(const Pixels& mean, const Pixels& variance, double degrees)
 {
     std::vector<PixelMoments> moments;
-    for (std::size_t i = 0; i < mean.size(); ++i) {
-        Vec3 total = variance[i];
-        for (int c = 0; c < 3; ++c) total[c] += rounding_variance(mean[i][c]);
-        moments.push_back({mean[i], total, degrees});
-    }
+    for (std::size_t i = 0; i < mean.size(); ++i) moments.push_back({mean[i], variance[i], degrees});
     return moments;
+}
+
+// Whether a tile without any noise differs.
+bool has_exact_difference(const WelchTiles& tiles)
+{
+    for (std::size_t i = 0; i < tiles.p_values.size(); ++i)
+        if (tiles.standard_errors[i] == 0.0 && tiles.p_values[i] == 0.0) return true;
+    return false;
 }
 
 void judge_floor(BiasVerdict& verdict, const BiasEvidence& evidence)
@@ -59,12 +63,14 @@ void judge_tiles(BiasVerdict& verdict, const BiasEvidence& evidence, double alph
 {
     const WelchTiles tiles = compare_tiles(*evidence.pool, *evidence.reference, evidence.width, evidence.height);
     verdict.tile = tiles.tile;
-    verdict.tile_p_value = tiles.ks_p_value;
+    verdict.tile_p_value = tiles.excess_p_value;
+    verdict.uniform_p_value = tiles.ks_p_value;
     verdict.worst_tile_z = tiles.worst_z;
-    verdict.tiles_passed = tiles.ks_p_value > alpha;
+    // Without noise in any tile there are no p-values, only facts.
+    verdict.tiles_passed = !(tiles.excess_p_value <= alpha) && !has_exact_difference(tiles);
     if (!verdict.tiles_passed)
-        verdict.reasons.push_back(fmt::format("The p-values of Welch's test of {0}x{0} pixels are not uniform: p = "
-                                              "{1:.2g}, worst tile at {2:.1f} standard errors.",
+        verdict.reasons.push_back(fmt::format("Tiles of {0}x{0} pixels differ from the reference by more than noise: "
+                                              "p = {1:.2g}, the worst by {2:.1f} standard errors.",
                                               verdict.tile, verdict.tile_p_value, verdict.worst_tile_z));
 }
 

@@ -30,8 +30,10 @@ struct BiasVerdict {
     // 1. MSE = a N^-p + b: b at the level of the verdict.
     Interval floor;
     bool floor_passed = false;
-    // 2. The pooled picture against the reference by Welch's test per tile; p-values must be uniform.
-    double tile_p_value = std::numeric_limits<double>::quiet_NaN();
+    // 2. The pooled picture against the reference by Welch's test per tile: no more small p-values than uniform ones
+    // have. Not uniform at all is no bias by itself: a variance that is known too badly does that too.
+    double tile_p_value = std::numeric_limits<double>::quiet_NaN();    // against too many small ones
+    double uniform_p_value = std::numeric_limits<double>::quiet_NaN(); // against any other distribution
     double worst_tile_z = std::numeric_limits<double>::quiet_NaN();
     int tile = 0; // pixels of its edge
     bool tiles_passed = false;
@@ -71,6 +73,6 @@ BiasVerdict judge_bias(const BiasEvidence& evidence, const VerdictLevels& levels
 // Edge of the tiles of a picture: at least 8 along its shorter edge where that has the pixels, none above 8 pixels.
 int tile_edge(int width, int height);
 
-// Welch's test of the pool against the reference, where differences of a few roundings count as none.
+// Welch's test of the pool against the reference, tile by tile.
 WelchTiles compare_tiles(const PixelPool& pool, const Reference& reference, int width, int height);
 } // namespace etendue
