@@ -1,5 +1,6 @@
 // Parse the command line, run one command, and turn an Error into one message and an exit code.
 #include "command/compare.h"
+#include "command/converge.h"
 #include "command/devices.h"
 #include "command/render.h"
 #include "command/replay.h"
@@ -25,6 +26,7 @@ int run(int argc, char** argv)
     std::function<int()> action;
     etendue::register_render(app, action);
     etendue::register_replay(app, action);
+    etendue::register_converge(app, action);
     etendue::register_devices(app, action);
     etendue::register_compare(app, action);
     etendue::register_schema(app, action);

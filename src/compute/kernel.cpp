@@ -42,9 +42,22 @@ void Kernel::enqueue(std::size_t global_size, std::size_t local_size)
     if (global_size == 0) return;
     const cl::NDRange local = local_size ? cl::NDRange(local_size) : cl::NullRange;
     named(*device_, name_, [&] {
-        return device_->queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(global_size), local);
+        return device_->queue().enqueueNDRangeKernel(kernel_, cl::NullRange, cl::NDRange(global_size), local, nullptr,
+                                                     &last_launch_);
     });
     count_launch(device_->info().name, name_);
+}
+
+double Kernel::last_launch_seconds() const
+{
+    if (last_launch_() == nullptr) return 0.0;
+    try {
+        const cl_ulong begin = last_launch_.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+        const cl_ulong end = last_launch_.getProfilingInfo<CL_PROFILING_COMMAND_END>();
+        return end > begin ? static_cast<double>(end - begin) * 1e-9 : 0.0;
+    } catch (const cl::Error&) {
+        return 0.0;
+    }
 }
 
 double Kernel::enqueue_and_wait(std::size_t global_size, std::size_t local_size)

@@ -42,6 +42,10 @@ public:
         return enqueue_and_wait(global_size, local_size);
     }
 
+    // Seconds that the device spent in the last launch, by its own clock; 0 where there was none or the driver does not
+    // say. Call it when the launch has ended.
+    double last_launch_seconds() const;
+
 private:
     template<typename T>
     void set(cl_uint index, const Buffer<T>& buffer)
@@ -63,5 +67,6 @@ private:
     const Device* device_ = nullptr;
     std::string name_;
     cl::Kernel kernel_;
+    cl::Event last_launch_;
 };
 } // namespace etendue

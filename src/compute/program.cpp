@@ -6,6 +6,10 @@
 #include "util/sha256.h"
 #include "util/stopwatch.h"
 
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+
 #include <fmt/format.h>
 
 namespace etendue
@@ -99,12 +103,22 @@ KernelCache KernelCache::standard()
     return none();
 }
 
+KernelCache KernelCache::cold()
+{
+    static std::atomic<std::uint64_t> serial{0};
+    const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+    KernelCache cache;
+    cache.option_ = fmt::format("-DUNSEEN_BEFORE={}{:04}", now, serial++);
+    return cache;
+}
+
 Program::Program(const Device& device, const std::string& name, const std::string& options, const KernelCache& cache)
     : device_(&device)
 {
     const std::string source = expand_program(name);
     report_.program = name;
     report_.options = all_options(device.info(), options);
+    if (!cache.option().empty()) report_.options += ' ' + cache.option();
     report_.source_bytes = source.size();
     if (cache.enabled()) cache_file_ = cache.folder() / (cache_key(device.info(), source, report_.options) + ".bin");
 

@@ -22,13 +22,17 @@ public:
     static KernelCache at(const std::filesystem::path& folder);
     static KernelCache standard();
     static KernelCache none() { return {}; }
+    // Nothing is kept, and drivers that keep kernels themselves find none either: every build has an option that no
+    // build before it had. For measuring what the first run on a machine costs.
+    static KernelCache cold();
 
     bool enabled() const { return !folder_.empty(); }
     const std::filesystem::path& folder() const { return folder_; }
     const std::string& warning() const { return warning_; } // why it is switched off, or ""
+    const std::string& option() const { return option_; }   // of every build; "" unless cold
 
 private:
-    std::string warning_;
+    std::string warning_, option_;
     std::filesystem::path folder_;
 };
 

@@ -34,6 +34,9 @@ public:
     LaunchCounters trace(const DeviceScene& scene, WorkUnit unit, std::vector<PixelBlock>& blocks,
                          std::vector<PixelAov>& aovs);
 
+    // Seconds of the device in the kernels of the last trace, by its own clock.
+    double kernel_seconds() const { return path_kernel_.last_launch_seconds() + film_kernel_.last_launch_seconds(); }
+
     // The accident code of the sample with this flat index in the last launch (see cl/shared/work.h).
     std::uint32_t accident_code(std::uint32_t flat_index) const;
 

@@ -43,6 +43,7 @@ struct DeviceReport {
     double upload_seconds = 0.0, bvh_seconds = 0.0, compile_seconds = 0.0;
     double first_launch_seconds = 0.0; // the first unit, with whatever the driver compiles then
     double render_seconds = 0.0;       // the other units
+    double kernel_seconds = 0.0;       // of all units, by the device's own clock
     std::uint64_t units = 0, samples = 0, first_launch_samples = 0;
     Device::Memory memory;
 };
@@ -55,6 +56,7 @@ struct RenderReport {
     double setup_seconds = 0.0;          // opening devices, uploading, building, compiling
     double render_seconds = 0.0;         // all passes, first launch included
     double first_launch_seconds = 0.0;   // of the slowest device
+    double warm_up_seconds = 0.0;        // before the render, all devices; 0 without a warm-up
     std::uint64_t samples_per_pixel = 0; // that every pixel has
     ErrorEstimate error_estimate = ErrorEstimate::samples;
     bool interrupted = false;

@@ -141,6 +141,20 @@ Renderer::Renderer(const Scene& scene, const Geometry& geometry, bool has_aov, c
 
 Renderer::~Renderer() = default;
 
+void Renderer::warm_up()
+{
+    Stopwatch watch;
+    for (const auto& worker : workers_) {
+        const RenderSettings& settings = worker->settings;
+        const PixelRect whole{0, 0, static_cast<int>(settings.width), static_cast<int>(settings.height)};
+        const WorkUnit unit = Schedule(whole, {0, 1}, workers_.size()).next(worker->launch_samples).value();
+        std::vector<PixelBlock> blocks(std::size_t{unit.tile_width} * unit.tile_height);
+        std::vector<PixelAov> aovs(worker->kernel->specialization().has(Feature::AOV) ? blocks.size() : 0);
+        worker->kernel->trace(worker->device_scene, unit, blocks, aovs);
+    }
+    report_.warm_up_seconds = watch.seconds();
+}
+
 void Renderer::render(Film& film, const RenderLimits& limits)
 {
     watch_.restart();
@@ -165,7 +179,7 @@ void Renderer::render(Film& film, const RenderLimits& limits)
             (pass_watch.seconds() - (report_.first_launch_seconds - first_launch_before)) / pass.sample_count;
         done += pass.sample_count;
         if (limits.stop()) break;
-        const PassEnd end{done, render_seconds()};
+        const PassEnd end{done, render_seconds(), kernel_seconds(), report_.rays()};
         Stopwatch pause;
         const bool go_on = limits.after_pass(end);
         paused_seconds_ += pause.seconds();
@@ -220,6 +234,7 @@ void Renderer::work(Worker& worker, Film& film, Schedule& schedule, const Render
         const std::lock_guard lock(mutex_);
         const bool first = worker.report.units++ == 0;
         worker.report.samples += samples_of(*unit);
+        worker.report.kernel_seconds += worker.kernel->kernel_seconds();
         if (first) {
             worker.report.first_launch_seconds = seconds;
             worker.report.first_launch_samples = samples_of(*unit);
@@ -255,6 +270,13 @@ void Renderer::add_counters(const Worker& worker, const WorkUnit& unit, const La
         place.vertex = worker.kernel->accident_code(index) / 16;
         record.first = place;
     }
+}
+
+double Renderer::kernel_seconds() const
+{
+    double seconds = 0.0;
+    for (const auto& worker : workers_) seconds += worker->report.kernel_seconds;
+    return seconds;
 }
 
 void Renderer::tell(const RenderLimits& limits)

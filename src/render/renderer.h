@@ -41,6 +41,8 @@ struct RenderProgress {
 struct PassEnd {
     std::uint64_t samples_per_pixel = 0;
     double render_seconds = 0.0; // since render() began, without the time spent in after_pass
+    double kernel_seconds = 0.0; // of all devices, by their own clocks
+    std::uint64_t rays = 0;
 };
 
 // When to stop, and whom to tell.
@@ -64,6 +66,10 @@ public:
     Renderer(const Scene& scene, const Geometry& geometry, bool has_aov, const RenderOptions& options);
     ~Renderer();
 
+    // Launch the kernels once on every device as the render will, and forget what comes back: drivers compile and
+    // allocate at the first launch. Call it before render(), if at all. Throws DeviceError.
+    void warm_up();
+
     // Add samples [0, samples_per_pixel) to a film that has none, and tell it how to estimate its error. Returns when
     // done, out of time, or stopped; then the pixels may have unequal numbers of samples. Call it once. Throws
     // DeviceError.
@@ -81,6 +87,7 @@ private:
     void work(Worker& worker, Film& film, Schedule& schedule, const RenderLimits& limits);
     void add_counters(const Worker& worker, const WorkUnit& unit, const LaunchCounters& counters);
     void tell(const RenderLimits& limits);
+    double kernel_seconds() const;
 
     std::vector<std::unique_ptr<Worker>> workers_;
     RenderReport report_;

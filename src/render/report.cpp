@@ -145,6 +145,7 @@ Json::Value device_json(const DeviceReport& device)
     json["seconds"]["render"] = device.render_seconds;
     json["seconds"]["canary"] = device.canary.seconds;
     json["canary"] = canary_json(device.canary);
+    json["seconds"]["kernel"] = device.kernel_seconds;
     for (const BuildReport& build : device.builds) json["builds"].append(build_json(build));
     json["bvh"] = bvh_json(device.bvh);
     json["memory"] = memory_json(device);

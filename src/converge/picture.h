@@ -1,0 +1,51 @@
+// What a study takes from a film: pixels in double with their variance.
+#pragma once
+
+#include "image/image.h"
+#include "math/vector.h"
+#include "render/film.h"
+#include "util/statistics.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace etendue
+{
+// Row by row from the top.
+using Pixels = std::vector<Vec3>;
+
+struct FilmPixels {
+    Pixels mean;
+    Pixels variance; // of the mean, as the film estimates it; infinite where it cannot
+};
+FilmPixels pixels_of(const Film& film);
+
+// Mean over the pixels, by channel.
+Vec3 mean_of(const Pixels& pixels);
+
+// How many values of a picture no radiance can be.
+struct BadValues {
+    std::uint64_t nan = 0, infinite = 0, negative = 0;
+};
+BadValues count_bad_values(const Pixels& pixels);
+
+// Pictures of independent replicates together: their mean and what they say of its variance.
+class PixelPool
+{
+public:
+    void add(const Pixels& picture);
+
+    std::size_t count() const { return count_; }
+    Pixels mean() const;
+    // Of the mean, from the spread between the pictures; infinite for fewer than two.
+    Pixels variance_of_mean() const;
+
+private:
+    std::size_t count_ = 0;
+    std::vector<std::array<Moments, 3>> pixels_;
+};
+
+// Channels R, G, B and, where there are variances, stderr.R/G/B.
+Image image_of(const Pixels& mean, const Pixels& variance, int width, int height);
+} // namespace etendue

@@ -1,0 +1,213 @@
+// Runs a study: references, cold starts, then the configurations in turn.
+#include "converge/study.h"
+
+#include "util/stopwatch.h"
+#include "util/study_progress.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include <fmt/format.h>
+
+namespace etendue
+{
+namespace
+{
+class Runner
+{
+public:
+    Runner(const StudyOptions& options, Log& log)
+        : log_(log), last_(options.checkpoints.values().back()), progress_(log, total_work(options))
+    {
+        study_.options = options;
+    }
+
+    Study run()
+    {
+        const Stopwatch watch;
+        study_.before = machine_state();
+        carry_out();
+        study_.after = machine_state();
+        study_.interrupted = study_.options.stop();
+        study_.seconds = watch.seconds();
+        progress_.finish();
+        return std::move(study_);
+    }
+
+private:
+    bool is_samples() const { return study_.options.checkpoints.axis == Checkpoints::Axis::samples; }
+
+    // In samples per pixel, or in seconds; the reference counts before it is known whether it is there already.
+    static double total_work(const StudyOptions& options)
+    {
+        const double runs = static_cast<double>(options.seeds * options.configurations.size());
+        const double last = options.checkpoints.values().back();
+        const bool is_samples = options.checkpoints.axis == Checkpoints::Axis::samples;
+        const bool rendered = options.reference == "auto";
+        return runs * last + (rendered ? reference_work(options, last, is_samples) : 0.0);
+    }
+
+    static double reference_work(const StudyOptions& options, double last, bool is_samples)
+    {
+        const double work = last * static_cast<double>(REFERENCE_SAMPLES);
+        return is_samples ? work : std::min(work, options.reference_seconds);
+    }
+
+    void carry_out()
+    {
+        const StudyOptions& options = study_.options;
+        for (const Configuration& configuration : options.configurations) {
+            StudiedConfiguration studied;
+            studied.prepared = prepare(configuration, options.preparation);
+            for (const std::string& warning : studied.prepared.warnings) warn(warning);
+            study_.configurations.push_back(std::move(studied));
+        }
+        describe();
+        study_.self_check = run_self_check(study_.configurations.front().prepared.options, options.stop);
+        if (!passed(study_.self_check)) warn("The bench does not measure the furnace's known error: see the report.");
+        if (options.stop() || !find_references()) return;
+        for (StudiedConfiguration& studied : study_.configurations) {
+            if (options.stop()) return;
+            studied.cold = measure_cold_start(studied.prepared);
+        }
+        // A,B,A,B: what the machine does meanwhile meets every configuration alike.
+        for (std::uint64_t s = 0; s < options.seeds; ++s)
+            for (StudiedConfiguration& studied : study_.configurations) {
+                if (options.stop()) return set_missing_errors();
+                render(studied, s);
+            }
+        set_missing_errors();
+    }
+
+    void describe()
+    {
+        const Scene& scene = study_.configurations.front().prepared.scene;
+        log_.info(fmt::format("{}: {}x{} pixels, {} configuration{}, {} seeds, checkpoints {}", scene.file,
+                              scene.film.width, scene.film.height, study_.configurations.size(),
+                              study_.configurations.size() == 1 ? "" : "s", study_.options.seeds,
+                              study_.options.checkpoints.text()));
+    }
+
+    // One for all configurations that converge to the same picture. Whether it was not stopped.
+    bool find_references()
+    {
+        std::map<std::string, std::vector<StudiedConfiguration*>> groups;
+        for (StudiedConfiguration& studied : study_.configurations)
+            groups[picture_key(studied.prepared)].push_back(&studied);
+        for (auto& [key, group] : groups) {
+            std::optional<Reference> found = reference_of(group);
+            if (!found) return false;
+            for (const std::string& warning : found->warnings) warn(warning);
+            const auto reference = std::make_shared<const Reference>(std::move(*found));
+            log_.info("reference: " + reference->description);
+            for (StudiedConfiguration* studied : group) studied->reference = reference;
+        }
+        return true;
+    }
+
+    std::optional<Reference> reference_of(const std::vector<StudiedConfiguration*>& group)
+    {
+        const StudyOptions& options = study_.options;
+        const Scene& scene = group.front()->prepared.scene;
+        const FilmSize size{scene.film.width, scene.film.height};
+        if (options.reference == "none") {
+            Reference none;
+            none.description = "none: errors are the spread between seeds, and no bias can be seen";
+            return none;
+        }
+        if (options.reference == "auto" || options.reference == "analytic") {
+            const bool mean_too = options.reference == "analytic";
+            if (const auto radiance = options.expected_radiance(scene, mean_too))
+                return analytic_reference(*radiance, size.width, size.height,
+                                          fmt::format("analytic: the scene expects the radiance {:.9g}, {:.9g}, {:.9g}",
+                                                      radiance->x, radiance->y, radiance->z));
+            if (mean_too)
+                throw UsageError(scene.file + ": the scene does not say what its picture must be (no fact about pixels "
+                                              "or mean in \"expect\"), so there is no analytic reference.");
+            return rendered_reference(group);
+        }
+        return file_reference(options.reference, size, options.first_seed, options.seeds);
+    }
+
+    std::optional<Reference> rendered_reference(const std::vector<StudiedConfiguration*>& group)
+    {
+        IndependentOptions options;
+        if (is_samples()) options.samples = static_cast<std::uint64_t>(last_) * REFERENCE_SAMPLES;
+        options.seconds = study_.options.reference_seconds;
+        const KernelCache standard = KernelCache::standard();
+        if (standard.enabled()) options.folder = standard.folder() / "references";
+        std::vector<IntegratorType> used;
+        for (const StudiedConfiguration* studied : group) used.push_back(studied->prepared.scene.integrator.type);
+        options.integrator = reference_integrator(used);
+        options.stop = study_.options.stop;
+        options.progress = [this](double fraction) { progress_.show(fraction); };
+        progress_.begin("reference", reference_work(study_.options, last_, is_samples()));
+        std::optional<Reference> reference = independent_reference(group.front()->prepared, options);
+        progress_.end();
+        return reference;
+    }
+
+    void render(StudiedConfiguration& studied, std::uint64_t number)
+    {
+        const StudyOptions& options = study_.options;
+        const Reference& reference = *studied.reference;
+        const bool is_blind = reference.kind == Reference::Kind::none;
+        const double relative = relative_floor(reference, options.metric_settings);
+        Run run;
+        run.seed = options.first_seed + number;
+        std::vector<Pixels> pictures;
+        Pixels last;
+        MeasurementOptions measurement;
+        measurement.checkpoints = options.checkpoints;
+        measurement.seed = run.seed;
+        measurement.stop = options.stop;
+        measurement.progress = [this](double fraction) { progress_.show(fraction); };
+        measurement.look = [&](const Snapshot& snapshot) {
+            run.rows.push_back(is_blind ? bare_row(snapshot)
+                                        : error_row(snapshot, reference, relative, options.metric_settings));
+            last = snapshot.pixels.mean;
+            if (is_blind) pictures.push_back(last);
+        };
+        progress_.begin(fmt::format("run {} of {}: {}, seed {}", ++runs_begun_,
+                                    options.seeds * study_.configurations.size(), studied.prepared.configuration.name,
+                                    run.seed),
+                        last_);
+        run.measurement = measure(studied.prepared, measurement);
+        progress_.end();
+        if (run.rows.empty()) return;
+        run.picture_mean = mean_of(last);
+        if (run.measurement.complete) studied.pool.add(last);
+        pictures_[&studied].push_back(std::move(pictures));
+        studied.runs.push_back(std::move(run));
+    }
+
+    void set_missing_errors()
+    {
+        for (StudiedConfiguration& studied : study_.configurations)
+            if (studied.reference->kind == Reference::Kind::none)
+                set_errors_between_seeds(studied.runs, pictures_[&studied], study_.options.metric_settings);
+    }
+
+    void warn(const std::string& text)
+    {
+        if (std::find(study_.warnings.begin(), study_.warnings.end(), text) != study_.warnings.end()) return;
+        study_.warnings.push_back(text);
+        log_.warning(text);
+    }
+
+    Log& log_;
+    double last_;
+    StudyProgress progress_;
+    Study study_;
+    std::uint64_t runs_begun_ = 0;
+    std::map<const StudiedConfiguration*, std::vector<std::vector<Pixels>>> pictures_; // without a reference
+};
+} // namespace
+
+Study run_study(const StudyOptions& options, Log& log)
+{
+    check_names(options.configurations);
+    return Runner(options, log).run();
+}
+} // namespace etendue

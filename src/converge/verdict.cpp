@@ -1,0 +1,215 @@
+// The three parts, and what they come to.
+#include "converge/verdict.h"
+
+#include "util/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace etendue
+{
+namespace
+{
+// Half a unit in the last place of a float near 1.
+constexpr double ROUNDING = 0x1p-24;
+// Sums of a block in float, and the reference's in another order: a few roundings.
+constexpr double ROUNDINGS = 16.0;
+// A test that sees a bias with this certainty counts as able to see it.
+constexpr double POWER = 0.99;
+
+double mean_of_channels(const Vec3& v)
+{
+    return (v.x + v.y + v.z) / 3.0;
+}
+
+// The variance of rounding, so that differences of one unit in the last place are no discovery.
+double rounding_variance(double value)
+{
+    const double deviation = ROUNDINGS * ROUNDING * value;
+    return deviation * deviation;
+}
+
+std::vector<PixelMoments> moments_of(const Pixels& mean, const Pixels& variance, double degrees)
+{
+    std::vector<PixelMoments> moments;
+    for (std::size_t i = 0; i < mean.size(); ++i) moments.push_back({mean[i], variance[i], degrees});
+    return moments;
+}
+
+// Whether a tile without any noise differs.
+bool has_exact_difference(const WelchTiles& tiles)
+{
+    for (std::size_t i = 0; i < tiles.p_values.size(); ++i)
+        if (tiles.standard_errors[i] == 0.0 && tiles.p_values[i] == 0.0) return true;
+    return false;
+}
+
+void judge_floor(BiasVerdict& verdict, const BiasEvidence& evidence)
+{
+    verdict.floor = evidence.floor;
+    verdict.floor_passed = evidence.floor.contains(0.0) && std::isfinite(evidence.floor.high);
+    if (evidence.floor.known() && !evidence.floor.contains(0.0))
+        verdict.reasons.push_back(
+            fmt::format("The errors do not fall to zero: MSE = a N^-p + b has b = {:.3g}, between {:.3g} and {:.3g}.",
+                        evidence.floor.estimate, evidence.floor.low, evidence.floor.high));
+    else if (!verdict.floor_passed)
+        verdict.reasons.emplace_back("The floor under the errors is not determined: it takes at least four usable "
+                                     "checkpoints and two seeds.");
+}
+
+void judge_tiles(BiasVerdict& verdict, const BiasEvidence& evidence, double alpha)
+{
+    const WelchTiles tiles = compare_tiles(*evidence.pool, *evidence.reference, evidence.width, evidence.height);
+    verdict.tile = tiles.tile;
+    verdict.tile_p_value = tiles.excess_p_value;
+    verdict.uniform_p_value = tiles.ks_p_value;
+    verdict.worst_tile_z = tiles.worst_z;
+    // Without noise in any tile there are no p-values, only facts.
+    verdict.tiles_passed = !(tiles.excess_p_value <= alpha) && !has_exact_difference(tiles);
+    if (!verdict.tiles_passed)
+        verdict.reasons.push_back(fmt::format("Tiles of {0}x{0} pixels differ from the reference by more than noise: "
+                                              "p = {1:.2g}, the worst by {2:.1f} standard errors.",
+                                              verdict.tile, verdict.tile_p_value, verdict.worst_tile_z));
+}
+
+// One channel: the means of the seeds against the reference's.
+void judge_channel(BiasVerdict& verdict, const BiasEvidence& evidence, int channel, const VerdictLevels& levels)
+{
+    const Reference& reference = *evidence.reference;
+    RunningStatistics means;
+    for (const Vec3& mean : evidence.picture_means) means.add(mean[channel]);
+    const double expected = mean_of(reference.mean)[channel];
+    const double seeds = static_cast<double>(means.count());
+    const double of_seeds = means.variance() / seeds;
+    const double of_reference = mean_of(reference.variance)[channel] / static_cast<double>(reference.variance.size());
+    const double variance = of_seeds + of_reference + rounding_variance(expected);
+    if (variance == 0.0) return; // a channel that is black in every picture
+    // Welch and Satterthwaite; of the reference's variance so many pixels know enough.
+    const double degrees =
+        of_seeds > 0.0 ? std::min((seeds - 1) * variance * variance / (of_seeds * of_seeds), 1e9) : 1e9;
+    const double error = std::sqrt(variance);
+    const double z = (means.mean() - expected) / error;
+    const double critical = student_t_quantile(1.0 - levels.test_alpha / 2, degrees);
+    const double detectable = (critical + student_t_quantile(POWER, degrees)) * error / std::abs(expected);
+    verdict.mean_passed = verdict.mean_passed && std::abs(z) < critical;
+    if (!std::isfinite(verdict.z) || std::abs(z) / critical > std::abs(verdict.z) / verdict.critical) {
+        verdict.z = z;
+        verdict.critical = critical;
+        verdict.mean_error = (means.mean() - expected) / std::abs(expected);
+    }
+    if (!(verdict.detectable_bias >= detectable)) verdict.detectable_bias = detectable;
+}
+
+void judge_mean(BiasVerdict& verdict, const BiasEvidence& evidence, const VerdictLevels& levels)
+{
+    verdict.mean_passed = true;
+    for (int c = 0; c < 3; ++c) judge_channel(verdict, evidence, c, levels);
+    if (!verdict.mean_passed)
+        verdict.reasons.push_back(fmt::format("The picture's mean is off by {:+.3g} %: {:.1f} standard errors, where "
+                                              "{:.2f} are allowed.",
+                                              100 * verdict.mean_error, verdict.z, verdict.critical));
+}
+
+bool slope_is_wrong(const BiasEvidence& evidence)
+{
+    return evidence.independent_samples && evidence.slope.known() &&
+           (evidence.slope.low > EXPECTED_SLOPE + SLOPE_TOLERANCE ||
+            evidence.slope.high < EXPECTED_SLOPE - SLOPE_TOLERANCE);
+}
+
+// What makes a run worthless whatever its picture looks like.
+bool has_failed(BiasVerdict& verdict, const BiasEvidence& evidence)
+{
+    if (evidence.accidents > 0)
+        verdict.reasons.push_back(
+            fmt::format("{} samples were not finite, negative or otherwise impossible.", evidence.accidents));
+    if (evidence.bad_values > 0)
+        verdict.reasons.push_back(
+            fmt::format("{} values of the pictures are not finite or negative.", evidence.bad_values));
+    if (!verdict.exact && slope_is_wrong(evidence))
+        verdict.reasons.push_back(fmt::format("The errors of independent samples must fall with slope -1 within {}, "
+                                              "and fall with {:.3f}, between {:.3f} and {:.3f}.",
+                                              SLOPE_TOLERANCE, evidence.slope.estimate, evidence.slope.low,
+                                              evidence.slope.high));
+    return !verdict.reasons.empty();
+}
+
+bool is_exact(const BiasEvidence& evidence)
+{
+    return evidence.largest_mse <= rounding_variance(mean_of_channels(mean_of(evidence.reference->mean)));
+}
+} // namespace
+
+const char* bias_result_name(BiasResult result)
+{
+    switch (result) {
+    case BiasResult::unbiased:
+        return "UNBIASED";
+    case BiasResult::biased:
+        return "BIASED";
+    case BiasResult::underpowered:
+        return "UNDERPOWERED";
+    case BiasResult::failed:
+        return "FAILED";
+    case BiasResult::unknown:
+        break;
+    }
+    return "UNKNOWN";
+}
+
+int tile_edge(int width, int height)
+{
+    return std::clamp(std::min(width, height) / 8, 1, 8);
+}
+
+WelchTiles compare_tiles(const PixelPool& pool, const Reference& reference, int width, int height)
+{
+    const double degrees = static_cast<double>(pool.count()) - 1;
+    return welch_test(moments_of(pool.mean(), pool.variance_of_mean(), degrees),
+                      moments_of(reference.mean, reference.variance, reference.degrees), width, height,
+                      tile_edge(width, height));
+}
+
+BiasVerdict judge_bias(const BiasEvidence& evidence, const VerdictLevels& levels)
+{
+    BiasVerdict verdict;
+    const bool is_blind = evidence.reference->kind == Reference::Kind::none;
+    const bool has_pictures = evidence.picture_means.size() >= 2;
+    verdict.exact = !is_blind && has_pictures && is_exact(evidence);
+    const bool failed = has_failed(verdict, evidence);
+    if (is_blind)
+        verdict.reasons.emplace_back("Without a reference only the spread between seeds is seen, and no bias.");
+    else if (!has_pictures)
+        verdict.reasons.emplace_back("Fewer than two seeds reached the last checkpoint.");
+    else if (verdict.exact)
+        verdict.reasons.emplace_back("Every picture is the reference but for rounding.");
+
+    bool seen = false;
+    if (!is_blind && has_pictures && evidence.bad_values == 0) {
+        if (!verdict.exact) judge_floor(verdict, evidence);
+        verdict.floor_passed = verdict.floor_passed || verdict.exact;
+        judge_tiles(verdict, evidence, levels.test_alpha);
+        judge_mean(verdict, evidence, levels);
+        const bool floor_seen = evidence.floor.known() && !evidence.floor.contains(0.0) && !verdict.exact;
+        seen = floor_seen || !verdict.tiles_passed || !verdict.mean_passed;
+    }
+    const bool powerful = verdict.floor_passed && verdict.detectable_bias <= levels.delta;
+    if (failed)
+        verdict.result = BiasResult::failed;
+    else if (is_blind)
+        verdict.result = BiasResult::unknown;
+    else if (seen)
+        verdict.result = BiasResult::biased;
+    else if (!has_pictures || !powerful)
+        verdict.result = BiasResult::underpowered;
+    else
+        verdict.result = BiasResult::unbiased;
+    if (verdict.result == BiasResult::underpowered && verdict.detectable_bias > levels.delta)
+        verdict.reasons.push_back(fmt::format("A bias of {:.2g} % could hide, and {:.2g} % must not: take more samples "
+                                              "or seeds.",
+                                              100 * verdict.detectable_bias, 100 * levels.delta));
+    return verdict;
+}
+} // namespace etendue
