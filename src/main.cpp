@@ -1,4 +1,5 @@
 // Parse the command line, run one command, and turn an Error into one message and an exit code.
+#include "command/check.h"
 #include "command/devices.h"
 #include "command/render.h"
 #include "command/schema.h"
@@ -22,6 +23,7 @@ int run(int argc, char** argv)
                "`etendue COMMAND --help` tells more about a command.");
     std::function<int()> action;
     etendue::register_render(app, action);
+    etendue::register_check(app, action);
     etendue::register_devices(app, action);
     etendue::register_schema(app, action);
     try {
