@@ -1,4 +1,5 @@
 // Parse the command line, run one command, and turn an Error into one message and an exit code.
+#include "command/check.h"
 #include "command/compare.h"
 #include "command/converge.h"
 #include "command/devices.h"
@@ -27,6 +28,7 @@ int run(int argc, char** argv)
     etendue::register_render(app, action);
     etendue::register_replay(app, action);
     etendue::register_converge(app, action);
+    etendue::register_check(app, action);
     etendue::register_devices(app, action);
     etendue::register_compare(app, action);
     etendue::register_schema(app, action);

@@ -72,6 +72,12 @@ std::size_t find_name(const json::Value& value, const std::string& what, const s
     return static_cast<std::size_t>(found - names.begin());
 }
 
+FormulaText read_formula(const json::Value& value, const Property& property)
+{
+    if (!value.is_number() && !value.is_string()) fail_kind(value, property);
+    return {value.is_number() ? fmt::format("{}", value.as_number()) : value.as_string(), value.location()};
+}
+
 Mat4 read_matrix(const json::Value& value, const Property& property)
 {
     // Take 16 numbers, or 4 rows of 4.
@@ -104,8 +110,8 @@ void Fields::find_variant()
     const std::string what = table_->type_noun.empty() ? table_->name + " type" : table_->type_noun;
     if (value_.is_string()) {
         variant_ = find_name(value_, what, table_->variant_names());
-    } else if (value_.has("type")) {
-        const json::Value type = value_["type"];
+    } else if (value_.has(table_->type_key)) {
+        const json::Value type = value_[table_->type_key];
         if (!type.is_string())
             type.fail("must be one of the names " + list_names(table_->variant_names()) + ", is " + type.description());
         variant_ = find_name(type, what, table_->variant_names());
@@ -114,7 +120,7 @@ void Fields::find_variant()
         variant_ =
             static_cast<std::size_t>(std::find(names.begin(), names.end(), table_->standard_type) - names.begin());
     } else {
-        value_.fail(fmt::format("this {} needs the key \"type\": one of {}", table_->name,
+        value_.fail(fmt::format("this {} needs the key \"{}\": one of {}", table_->name, table_->type_key,
                                 list_names(table_->variant_names())));
     }
 }
@@ -123,10 +129,11 @@ void Fields::check_keys(UnknownKeys unknown) const
 {
     // Collect what this variant of the object may hold.
     std::vector<std::string> known;
-    if (!table_->variants.empty()) known.push_back("type");
+    if (!table_->variants.empty()) known.push_back(table_->type_key);
     for (const Property* p : table_->properties_of(variant_)) known.push_back(p->name);
 
-    const std::string type = table_->variants.empty() ? "" : " of type " + table_->variants[variant_].name;
+    const std::string type =
+        table_->variants.empty() ? "" : fmt::format(" of {} ", table_->type_key) + table_->variants[variant_].name;
     for (const std::string& key : value_.keys()) {
         if (std::find(known.begin(), known.end(), key) != known.end()) continue;
         if (unknown.paths_) {
@@ -276,6 +283,50 @@ std::vector<double> Fields::reals(const std::string& name) const
     if (property(name).kind == Kind::number) return {number(name)};
     const Vec3 c = colour(name);
     return {c.x, c.y, c.z};
+}
+
+std::vector<std::string> Fields::strings(const std::string& name) const
+{
+    std::vector<std::string> list;
+    if (!has(name)) return list;
+    const json::Value value = at(name);
+    if (!value.is_array()) fail_kind(value, property(name));
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        if (!value[i].is_string()) value[i].fail("must be a string, is " + value[i].description());
+        list.push_back(value[i].as_string());
+    }
+    return list;
+}
+
+std::optional<FormulaText> Fields::formula(const std::string& name) const
+{
+    if (!has(name) && property(name).standard == std::string(OPTIONAL)) return {};
+    return read(name, read_formula);
+}
+
+std::vector<FormulaText> Fields::formulas(const std::string& name) const
+{
+    return read(name, [](const json::Value& value, const Property& p) {
+        if (!value.is_array()) return std::vector<FormulaText>{read_formula(value, p)};
+        check_list(value, 3, p);
+        Property element = p;
+        element.kind = Kind::formula;
+        std::vector<FormulaText> list;
+        for (std::size_t i = 0; i < 3; ++i) list.push_back(read_formula(value[i], element));
+        return list;
+    });
+}
+
+std::vector<std::pair<std::string, FormulaText>> Fields::named_formulas(const std::string& name) const
+{
+    std::vector<std::pair<std::string, FormulaText>> list;
+    if (!has(name)) return list;
+    const json::Value value = at(name);
+    if (!value.is_object()) fail_kind(value, property(name));
+    Property element = property(name);
+    element.kind = Kind::formula;
+    for (const std::string& key : value.keys()) list.emplace_back(key, read_formula(value[key], element));
+    return list;
 }
 
 std::vector<json::Value> Fields::objects(const std::string& name) const

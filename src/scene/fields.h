@@ -3,12 +3,14 @@
 #pragma once
 
 #include "math/vector.h"
+#include "scene/formula_text.h"
 #include "scene/table.h"
 #include "util/json.h"
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace etendue
@@ -56,7 +58,11 @@ public:
     Mat4 matrix(const std::string& name) const;                        // column vectors
     std::vector<Vec3> vectors3(const std::string& name) const;         // empty when not there
     std::vector<glm::u32vec3> indices3(const std::string& name) const;
-    std::vector<double> reals(const std::string& name) const; // number: one; colour: three
+    std::vector<double> reals(const std::string& name) const;          // number: one; colour: three
+    std::vector<std::string> strings(const std::string& name) const;   // empty when not there
+    std::optional<FormulaText> formula(const std::string& name) const; // OPTIONAL and not there: empty
+    std::vector<FormulaText> formulas(const std::string& name) const;  // one or three
+    std::vector<std::pair<std::string, FormulaText>> named_formulas(const std::string& name) const;
     // The elements of a list of objects, or of one object; none when not there.
     std::vector<json::Value> objects(const std::string& name) const;
 

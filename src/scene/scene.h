@@ -5,11 +5,13 @@
 #include "math/color.h"
 #include "math/shared.h"
 #include "math/vector.h"
+#include "scene/formula_text.h"
 #include "util/error.h"
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -123,30 +125,38 @@ struct EnvironmentDescription {
 
 // One thing that a scene says of its own picture; etendue check judges it.
 struct ExpectedFact {
-    enum class Rule { exact, round, bound, count, stat } rule = Rule::round;
     enum class Subject {
-        pixels,            // every pixel (with one sample per pixel: every sample)
+        pixels,            // every pixel; of one sample each: every sample
         mean,              // of all pixels
         relative_variance, // of one sample: variance / mean^2
+        second_moment,     // of one sample: mean of squares
+        rays,              // traced for each sample, shadow rays too
         same,              // as the picture of another scene
-        load_error,        // loading fails, and the message contains `text`
+        load_error,        // loading fails with a message that contains `text`
         warning            // a warning contains `text`
     } subject = Subject::pixels;
-    std::vector<std::string> value;     // formulas, one for all channels or three; not for load_error, warning and same
-    std::string tolerance;              // a formula: roundings (round), a relative tolerance (relative_variance, same)
-    std::string text;                   // what a message contains
-    std::string other;                  // same: a scene file beside this one, or "" for this scene ...
-    std::vector<std::string> overrides; // ... with these path=value
+    enum class Rule { exact, round, bound, count, stat } rule = Rule::round;
+    std::vector<FormulaText> value;         // one for all channels or three; of pixels, moments and rays
+    std::optional<FormulaText> other_value; // pixels: what some pixels are instead
+    Vec2 other_share{0, 1};                 // pixels: the share of those, from and to
+    std::optional<FormulaText> tolerance;   // roundings, or relative, as the table of the subject says
+    std::optional<FormulaText> delta;       // mean, same: the relative bias that must be seen; empty: that of the run
+    double share = 1.0;                     // same: of the pixels that must be within the tolerance
+    std::string text;                       // load_error, warning
+    std::string scene;                      // same: a file beside this one; "": this one ...
+    std::vector<std::string> overrides;     // ... with these path=value; load_error too
+    bool specialized = false;               // same: rendered by the kernel with this scene's features only
     SourceLocation location;
 };
 
 // The "expect" block: a scene that knows what its picture must be.
 struct Expectation {
-    std::string group = "stiff";                            // or "analytic"
+    enum class Group { analytic, stiff } group = Group::stiff;
     bool is_long = false;                                   // only with --long
-    std::string because;                                    // the derivation in one line
-    std::vector<std::pair<std::string, std::string>> where; // named formulas, in order
-    std::vector<ExpectedFact> facts;
+    std::string because;                                    // the derivation in a line
+    std::vector<std::pair<std::string, FormulaText>> where; // names of formulas, sorted
+    bool lenient = false;                                   // loaded as by --lenient
+    std::vector<ExpectedFact> facts;                        // at least one
     SourceLocation location;
 };
 

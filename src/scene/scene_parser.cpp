@@ -1,6 +1,7 @@
 // Reading the native scene format by its tables.
 #include "scene/scene_parser.h"
 
+#include "scene/expectation_parser.h"
 #include "scene/fields.h"
 #include "scene/material_parser.h"
 #include "scene/scene_tables.h"
@@ -113,6 +114,7 @@ Scene parse_native_scene(const json::Value& root, const std::string& folder)
         const Fields environment(fields.at("environment"), environment_table());
         scene.environment = {environment.colour("radiance"), environment.object().location()};
     }
+    if (fields.has("expect")) scene.expectation = parse_expectation(fields.at("expect"));
     return scene;
 }
 } // namespace etendue

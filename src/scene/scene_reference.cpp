@@ -34,14 +34,14 @@ std::string section(const Table& table)
 {
     std::string text = fmt::format("### {}\n\n{}\n", table.name, table.text);
     if (!table.variants.empty()) {
-        text += "\n`type` is one of:\n\n";
+        text += fmt::format("\n`{}` is one of:\n\n", table.type_key);
         for (const Variant& variant : table.variants) text += fmt::format("- `{}`: {}\n", variant.name, variant.text);
         if (table.standard_type) text += fmt::format("\nWithout a type it is `{}`.", table.standard_type);
         if (table.name_alone) text += " The name of the type may stand for the whole object.";
         if (table.standard_type || table.name_alone) text += "\n";
     }
     if (table.exactly_one) text += "\nExactly one of the keys:\n";
-    text += "\n| for type | key | is | default | |\n| --- | --- | --- | --- | --- |\n";
+    text += fmt::format("\n| for {} | key | is | default | |\n| --- | --- | --- | --- | --- |\n", table.type_key);
     for (const Property& p : table.properties) text += row(table.variants.empty() ? "" : "all", p);
     for (const Variant& variant : table.variants)
         for (const Property& p : variant.properties) text += row("`" + variant.name + "`", p);

@@ -61,6 +61,14 @@ Json::Value number(const char* type, const Range& range)
     return schema;
 }
 
+Json::Value formula_schema()
+{
+    Json::Value schema;
+    schema["type"].append("number");
+    schema["type"].append("string");
+    return schema;
+}
+
 Json::Value kind_schema(const Property& p)
 {
     const Json::Value real = number("number", p.range), integer = number("integer", p.range);
@@ -95,6 +103,17 @@ Json::Value kind_schema(const Property& p)
         return list_of(list_of(real, 3));
     case Kind::indices3:
         return list_of(list_of(integer, 3));
+    case Kind::strings:
+        plain["type"] = "string";
+        return list_of(plain);
+    case Kind::formula:
+        return formula_schema();
+    case Kind::formulas:
+        return one_of(formula_schema(), list_of(formula_schema(), 3));
+    case Kind::named_formulas:
+        plain["type"] = "object";
+        plain["additionalProperties"] = formula_schema();
+        return plain;
     case Kind::object:
         return reference(p.table());
     case Kind::objects:
@@ -130,9 +149,9 @@ Json::Value object_schema(const Table& table, std::size_t variant)
     schema["properties"] = Json::objectValue;
     if (!table.variants.empty()) {
         schema["description"] = table.variants[variant].text;
-        schema["properties"]["type"]["const"] = table.variants[variant].name;
+        schema["properties"][table.type_key]["const"] = table.variants[variant].name;
         const bool is_standard = table.standard_type && table.variants[variant].name == table.standard_type;
-        if (!is_standard) schema["required"].append("type");
+        if (!is_standard) schema["required"].append(table.type_key);
     }
     for (const Property* p : table.properties_of(variant)) {
         schema["properties"][p->name] = property_schema(*p);

@@ -2,6 +2,7 @@
 #include "scene/scene_tables.h"
 
 #include "math/shared.h"
+#include "scene/expectation_parser.h"
 #include "scene/material_parser.h"
 
 namespace etendue
@@ -109,7 +110,11 @@ const Table& scene_table()
          {.name = "materials", .kind = Kind::objects, .text = "what surfaces are made of", .table = material_table},
          {.name = "shapes", .kind = Kind::objects, .text = "what is in the scene", .table = shape_table},
          {.name = "lights", .kind = Kind::objects, .text = "shapes that emit", .table = light_table},
-         {.name = "environment", .kind = Kind::object, .text = "light from far away", .table = environment_table}}};
+         {.name = "environment", .kind = Kind::object, .text = "light from far away", .table = environment_table},
+         {.name = "expect",
+          .kind = Kind::object,
+          .text = "what the picture must be, for etendue check",
+          .table = expectation_table}}};
     return table;
 }
 
@@ -309,9 +314,9 @@ const Table& environment_table()
 
 std::vector<const Table*> all_tables()
 {
-    return {&scene_table(),      &camera_table(),   &film_table(),    &filter_table(),
-            &integrator_table(), &roulette_table(), &sampler_table(), &accelerator_table(),
-            &material_table(),   &shape_table(),    &light_table(),   &emission_table(),
-            &transform_table(),  &rotate_table(),   &look_at_table(), &environment_table()};
+    return {&scene_table(),       &camera_table(),      &film_table(),        &filter_table(),   &integrator_table(),
+            &roulette_table(),    &sampler_table(),     &accelerator_table(), &material_table(), &shape_table(),
+            &light_table(),       &emission_table(),    &transform_table(),   &rotate_table(),   &look_at_table(),
+            &environment_table(), &expectation_table(), &fact_table()};
 }
 } // namespace etendue

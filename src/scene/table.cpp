@@ -60,6 +60,14 @@ std::string Property::expectation() const
         return "a list of [x, y, z]" + each;
     case Kind::indices3:
         return "a list of [i, j, k], integers" + each;
+    case Kind::strings:
+        return "a list of strings";
+    case Kind::formula:
+        return "a number or a formula in quotes";
+    case Kind::formulas:
+        return "a number, a formula in quotes, or a list of 3 of them";
+    case Kind::named_formulas:
+        return "an object of numbers and formulas in quotes";
     case Kind::object:
         return table().name_alone ? "an object or one of the names " + list_names(table().variant_names())
                                   : "an object";

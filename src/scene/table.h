@@ -13,19 +13,23 @@ enum class Kind {
     integer,
     boolean,
     string,
-    name,          // one of Property::names
-    vector2,       // [x, y]
-    vector3,       // [x, y, z]
-    colour,        // [r, g, b], or one number for all three
-    size2,         // [width, height], integers
-    scale,         // one number, or [x, y, z]
-    depth,         // an integer, or "unlimited"
-    matrix,        // 16 numbers row by row, or 4 rows of 4
-    vectors3,      // a list of [x, y, z]
-    indices3,      // a list of [i, j, k]
-    object,        // Property::table
-    objects,       // a list of them
-    object_or_list // one of them, or a list
+    name,           // one of Property::names
+    vector2,        // [x, y]
+    vector3,        // [x, y, z]
+    colour,         // [r, g, b], or one number for all three
+    size2,          // [width, height], integers
+    scale,          // one number, or [x, y, z]
+    depth,          // an integer, or "unlimited"
+    matrix,         // 16 numbers row by row, or 4 rows of 4
+    vectors3,       // a list of [x, y, z]
+    indices3,       // a list of [i, j, k]
+    strings,        // a list of strings
+    formula,        // a number, or a formula in quotes
+    formulas,       // one of them, or three for the channels
+    named_formulas, // an object whose every value is one of them
+    object,         // Property::table
+    objects,        // a list of them
+    object_or_list  // one of them, or a list
 };
 
 struct Range {
@@ -58,7 +62,7 @@ struct Property {
     std::string expectation() const;
 };
 
-// A value of the key "type", and what it adds to the object.
+// A value of the key "type" (or type_key), and what it adds to the object.
 struct Variant {
     std::string name;
     std::string text;
@@ -69,11 +73,12 @@ struct Table {
     std::string name; // "camera", "material": what messages and the schema call the object
     std::string text;
     std::vector<Property> properties;
-    std::vector<Variant> variants = {};   // not empty: the object has a key "type"
+    std::vector<Variant> variants = {};   // not empty: the object has a key that names one of them
     const char* standard_type = REQUIRED; // the name of the variant when there is no "type"
     bool name_alone = false;              // the name of the variant may stand for the whole object
     bool exactly_one = false;             // the object has exactly one of the properties
     std::string type_noun = {};           // what messages call the type, when not "<name> type"
+    const char* type_key = "type";
 
     std::vector<std::string> variant_names() const;
     // Of one variant (by index; ignored when there are none): "type", its own properties and those of all.

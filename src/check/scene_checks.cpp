@@ -1,0 +1,152 @@
+// Running a scene and judging what it says of itself.
+#include "check/scene_checks.h"
+
+#include "check/check_picture.h"
+#include "check/fact.h"
+#include "geometry/geometry.h"
+#include "util/stopwatch.h"
+
+#include <map>
+
+namespace etendue
+{
+namespace
+{
+using Subject = ExpectedFact::Subject;
+
+struct SceneFacts {
+    SceneSource source;
+    LoadedScene loaded;
+    std::vector<Fact> facts;
+    std::vector<std::string> names; // of the results
+
+    const Expectation& expectation() const { return *loaded.scene.expectation; }
+};
+
+const char* group_name(Expectation::Group group)
+{
+    return group == Expectation::Group::analytic ? "analytic" : "stiff";
+}
+
+// The scene's name for its first fact, and with what makes them unique for the others.
+std::vector<std::string> result_names(const std::string& scene, const std::vector<Fact>& facts)
+{
+    std::vector<std::string> names;
+    std::map<std::string, int> used;
+    for (const Fact& fact : facts) {
+        const int number = ++used[fact.subject()];
+        std::string name = scene;
+        if (!names.empty()) name += "/" + fact.subject() + (number > 1 ? "-" + std::to_string(number) : "");
+        names.push_back(name);
+    }
+    return names;
+}
+
+// A fact of a scene's only picture needs it; the others load and render their own.
+bool needs_picture(const Fact& fact)
+{
+    return fact.text.subject != Subject::load_error;
+}
+
+std::vector<std::string> loading_errors(const SceneFacts& scene, const Fact& fact)
+{
+    try {
+        const LoadedScene loaded = scene.source.load(fact.text.overrides);
+        make_geometry(loaded.scene, {scene.expectation().lenient});
+        return {};
+    } catch (const Error& error) {
+        return {error.what()};
+    }
+}
+
+CheckPicture other_picture(const CheckContext& context, const SceneFacts& scene, const Fact& fact)
+{
+    const SceneSource source = fact.text.scene.empty() ? scene.source : scene.source.neighbour(fact.text.scene);
+    const LoadedScene loaded = source.load(fact.text.overrides);
+    const bool lenient = loaded.scene.expectation ? loaded.scene.expectation->lenient : scene.expectation().lenient;
+    return check_picture(context, loaded, {lenient, fact.text.specialized});
+}
+
+void judge_fact(CheckResult& result, const Fact& fact, const SceneFacts& scene, const CheckPicture& picture,
+                const CheckContext& context)
+{
+    switch (fact.text.subject) {
+    case Subject::pixels:
+        return judge_pixels(result, fact, picture);
+    case Subject::mean:
+        return judge_mean(result, fact, picture, context);
+    case Subject::relative_variance:
+    case Subject::second_moment:
+        return judge_moment(result, fact, picture);
+    case Subject::rays:
+        return judge_rays(result, fact, picture);
+    case Subject::same: {
+        const CheckPicture other = other_picture(context, scene, fact);
+        judge_same(result, fact, picture, other, context);
+        if (!other.accident.empty()) {
+            result.verdict = Verdict::failed;
+            result.note = "the other picture: " + other.accident;
+        }
+        return;
+    }
+    case Subject::load_error:
+        return judge_message(result, fact, loading_errors(scene, fact));
+    case Subject::warning:
+        return judge_message(result, fact, picture.warnings);
+    }
+}
+
+std::vector<CheckResult> run_scene(const SceneFacts& scene, const CheckContext& context)
+{
+    Stopwatch watch;
+    CheckPicture picture;
+    for (const Fact& fact : scene.facts) {
+        if (!needs_picture(fact)) continue;
+        picture = check_picture(context, scene.loaded, {scene.expectation().lenient, false});
+        break;
+    }
+    std::vector<CheckResult> results;
+    for (std::size_t i = 0; i < scene.facts.size(); ++i) {
+        const Fact& fact = scene.facts[i];
+        CheckResult result;
+        result.group = group_name(scene.expectation().group);
+        result.name = scene.names[i];
+        result.rule = fact.rule();
+        judge_fact(result, fact, scene, picture, context);
+        if (needs_picture(fact) && !picture.accident.empty()) {
+            result.verdict = Verdict::failed;
+            result.note = picture.accident;
+        }
+        result.seconds = watch.restart();
+        results.push_back(result);
+    }
+    return results;
+}
+} // namespace
+
+std::optional<Check> scene_check(const SceneSource& source)
+{
+    SceneFacts scene{source, source.load(), {}, {}};
+    if (!scene.loaded.scene.expectation) return {};
+    const Formulas formulas(scene.expectation().where);
+    Check check;
+    check.group = group_name(scene.expectation().group);
+    check.name = source.name;
+    check.is_long = scene.expectation().is_long;
+    for (const ExpectedFact& text : scene.expectation().facts) {
+        scene.facts.push_back(make_fact(text, formulas));
+        check.statistical_tests += scene.facts.back().statistical_tests();
+    }
+    scene.names = result_names(source.name, scene.facts);
+    check.run = [scene = std::move(scene)](const CheckContext& context) { return run_scene(scene, context); };
+    return check;
+}
+
+std::vector<Check> scene_checks(const std::vector<SceneSource>& sources)
+{
+    std::vector<Check> checks;
+    for (const SceneSource& source : sources)
+        if (std::optional<Check> check = scene_check(source)) checks.push_back(std::move(*check));
+    return checks;
+}
+} // namespace etendue

@@ -1,0 +1,19 @@
+// Checks made of scenes with an "expect" block.
+#pragma once
+
+#include "check/check.h"
+#include "check/scene_source.h"
+#include "scene/scene.h"
+
+#include <optional>
+#include <vector>
+
+namespace etendue
+{
+// One result for each fact of the scene. Works out every formula, so that a wrong one is found before anything runs.
+// Throws SceneError; nothing where the scene expects nothing.
+std::optional<Check> scene_check(const SceneSource& source);
+
+// Of all scenes that expect something.
+std::vector<Check> scene_checks(const std::vector<SceneSource>& sources);
+} // namespace etendue
