@@ -13,7 +13,7 @@ namespace etendue
 {
 namespace
 {
-constexpr double WIDTH = 480, HEIGHT = 250, LEFT = 56, RIGHT = 16, TOP = 16, BOTTOM = 52;
+constexpr double WIDTH = 420, HEIGHT = 250, LEFT = 56, RIGHT = 16, TOP = 16, BOTTOM = 52;
 constexpr double AXIS_WIDTH = WIDTH - LEFT - RIGHT, AXIS_HEIGHT = HEIGHT - TOP - BOTTOM;
 constexpr double BAND_ALPHA = 1e-3;
 

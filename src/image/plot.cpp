@@ -88,7 +88,7 @@ std::string grid(const Frame& frame)
 {
     std::string svg;
     const auto grade = [](const AxisTick& tick) { return tick.is_decade ? "plot-decade" : "plot-between"; };
-    for (const AxisTick& tick : frame.x.ticks(8)) {
+    for (const AxisTick& tick : frame.x.ticks(10)) {
         const double u = frame.x.position(tick.value);
         svg += line(frame.at(u, 0), frame.at(u, 1), fmt::format("class=\"{}\"", grade(tick)));
         if (tick.is_labelled)

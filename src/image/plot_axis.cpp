@@ -58,7 +58,7 @@ std::vector<AxisTick> LogAxis::ticks(std::size_t most_labels) const
 
     // Label every decade or every so many, and of few decades 2 and 5 as well.
     const auto step = static_cast<int>(std::max<std::size_t>(1, (decades + most_labels - 1) / most_labels));
-    const bool labels_between = 3 * (decades - 1) <= most_labels;
+    const bool labels_between = 3.0 * std::log10(high_ / low_) <= static_cast<double>(most_labels);
     std::vector<AxisTick> ticks;
     for (int exponent = first; exponent <= last; ++exponent) {
         for (int digit = 1; digit < 10; ++digit) {

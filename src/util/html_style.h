@@ -12,7 +12,7 @@ inline constexpr const char* HTML_STYLE = R"(:root {
   :root {
     --paper: #15171a; --ink: #e6e7e9; --soft: #a3a9b3; --line: #363a41; --panel: #1f2226; --link: #7cb8f2;
     --good: #6fd39b; --good-paper: #14291e; --bad: #ff9a94; --bad-paper: #331a1b; --caution: #f0c463;
-    --caution-paper: #2e2512; --shade: rgba(0, 0, 0, .75);
+    --caution-paper: #2e2512; --shade: rgba(255, 255, 255, .32);
   }
 }
 * { box-sizing: border-box; }
@@ -63,7 +63,7 @@ thead th {
   vertical-align: bottom;
 }
 .number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-dl { margin: 0 0 18px; display: grid; grid-template-columns: minmax(0, max-content) minmax(0, 1fr); font-size: 15px; }
+dl { margin: 0 0 18px; display: grid; grid-template-columns: fit-content(38%) minmax(0, 1fr); font-size: 15px; }
 dl > div { display: contents; }
 dt, dd { margin: 0; padding: 7px 0; border-bottom: 1px solid var(--line); overflow-wrap: anywhere; }
 dt { color: var(--soft); padding-right: 32px; }
@@ -76,7 +76,7 @@ code, pre { font: 13.5px/1.5 ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu S
 figure { margin: 0; min-width: 0; }
 figcaption { color: var(--soft); font-size: 14px; line-height: 1.45; padding-top: 8px; overflow-wrap: anywhere; }
 .figures {
-  display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 300px), 1fr)); gap: 28px 24px;
+  display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 380px), 1fr)); gap: 28px 24px;
   margin: 0 0 22px; align-items: start;
 }
 .figures figure { max-width: 620px; }
@@ -84,8 +84,9 @@ figcaption { color: var(--soft); font-size: 14px; line-height: 1.45; padding-top
 .figures img.pixels { image-rendering: pixelated; }
 .drawing { margin: 0 0 24px; }
 .drawing .scroll { margin: 0; }
-.drawing svg { display: block; width: 100%; height: auto; min-width: 600px; max-width: 860px; }
-.drawing svg.small { min-width: 340px; max-width: 560px; }
+.drawing svg { display: block; width: 100%; height: auto; min-width: 680px; max-width: 860px; }
+.drawing svg.small { min-width: 360px; max-width: 520px; }
+.note { color: var(--soft); font-size: 14px; }
 .scale { display: block; margin-top: 8px; }
 .scale .bar { display: block; height: 10px; border-radius: 2px; border: 1px solid var(--line); }
 .scale .ends { display: flex; justify-content: space-between; gap: 8px; font-size: 13px; }

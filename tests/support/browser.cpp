@@ -1,5 +1,5 @@
-// A copy of the page with a probe at its top is held in frames of the wanted widths; each tells the page around them what
-// it found, and that is read from Chromium's dump of the document.
+// A copy of the page with a probe at its top is held in frames of the wanted widths; each tells the page around them
+// what it found, and that is read from Chromium's dump of the document.
 #include "support/browser.h"
 
 #include "support/child_process.h"
@@ -122,7 +122,8 @@ std::string write_holder(const TemporaryFolder& folder, const std::string& body)
 {
     const std::string path = (folder.path() / "holder.html").string();
     write_file(path, "<!DOCTYPE html><meta charset=\"utf-8\"><meta name=\"color-scheme\" content=\"light dark\">"
-                     "<body style=\"margin:0\">" + body);
+                     "<body style=\"margin:0\">" +
+                         body);
     return "file://" + path;
 }
 
@@ -232,8 +233,9 @@ void photograph_page(const std::string& path, int width, int height, const std::
     const TemporaryFolder folder;
     const std::string page = "file://" + std::filesystem::absolute(path).string();
     const std::string holder = write_holder(folder, frame(page, width, height));
-    run_chromium(folder, {fmt::format("--window-size={},{}", width, height),
-                          "--screenshot=" + std::filesystem::absolute(png).string(), holder},
+    run_chromium(folder,
+                 {fmt::format("--window-size={},{}", width, height),
+                  "--screenshot=" + std::filesystem::absolute(png).string(), holder},
                  is_dark);
 }
 } // namespace etendue

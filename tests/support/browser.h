@@ -13,10 +13,10 @@ struct PageView {
     std::vector<std::string> errors;   // of scripts and the console, and resources that could not be loaded
     std::vector<std::string> requests; // what was loaded from outside of the page
     int images = 0, broken_images = 0;
-    int figures_without_text = 0;      // images without alt, drawings without a label
-    double smallest_text = 0.0;        // in pixels of the window, drawings included
-    std::string smallest_words;        // which text that is
-    double least_contrast = 0.0;       // of text against what is behind it, the page's own colours (WCAG 2.1)
+    int figures_without_text = 0; // images without alt, drawings without a label
+    double smallest_text = 0.0;   // in pixels of the window, drawings included
+    std::string smallest_words;   // which text that is
+    double least_contrast = 0.0;  // of text against what is behind it, the page's own colours (WCAG 2.1)
     std::string least_contrast_words;
 };
 

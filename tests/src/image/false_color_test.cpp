@@ -40,10 +40,10 @@ TEST_CASE("the signed error is white where equal, red above and blue below", "[i
 {
     Image a = grey(5, 1, 1.0f);
     const Image b = a;
-    a.data[3] = 1.5f;                                         // brighter in R
-    a.data[2 * 3 + 1] = 0.5f;                                 // darker in G
-    a.data[3 * 3] = 1.1f, a.data[3 * 3 + 2] = 0.5f;           // more darker than brighter
-    a.data[4 * 3] = std::numeric_limits<float>::quiet_NaN();  // not finite
+    a.data[3] = 1.5f;                                        // brighter in R
+    a.data[2 * 3 + 1] = 0.5f;                                // darker in G
+    a.data[3 * 3] = 1.1f, a.data[3 * 3 + 2] = 0.5f;          // more darker than brighter
+    a.data[4 * 3] = std::numeric_limits<float>::quiet_NaN(); // not finite
     const Image error = signed_error_image(a, b, 0.5);
     REQUIRE(error.width == 5);
     CHECK(css_color(pixel(error, 0, 0)) == "#ffffff");

@@ -39,7 +39,7 @@ std::vector<Points> points_of(const std::string& svg, const std::string& css_cla
 
 double attribute(const std::string& svg, const std::string& css_class, const std::string& name)
 {
-    const std::regex element("<\\w+ class=\"" + css_class + "\"[^>]* " + name + "=\"([-0-9.]+)\"");
+    const std::regex element("<\\w+ (?=[^>]*class=\"" + css_class + "\")[^>]*\\b" + name + "=\"([-0-9.]+)\"");
     std::smatch match;
     REQUIRE(std::regex_search(svg, match, element));
     return std::stod(match[1]);

@@ -133,3 +133,27 @@ TEST_CASE("the uniformity test accepts uniform values and refuses a bent distrib
     for (double& value : sample) value = uniform(random) * uniform(random);
     CHECK(ks_uniform_p_value(sample) < 1e-6);
 }
+
+TEST_CASE("too many small values are found, too many large ones are none of it")
+{
+    // P(D+ > d) = exp(-2 n d^2) for many values; here the distance is set to one where that is 1 %.
+    const std::size_t n = 10000;
+    const double root = std::sqrt(static_cast<double>(n));
+    const double distance = std::sqrt(-std::log(0.01) / 2) / (root + 0.12 + 0.11 / root);
+    std::vector<double> values(n);
+    for (std::size_t i = 0; i < n; ++i)
+        values[i] = std::max(0.0, (static_cast<double>(i) + 1) / static_cast<double>(n) - distance);
+    CHECK(ks_small_p_value(values) == Approx(0.01).epsilon(2e-3));
+    for (double& value : values) value = 1.0 - value;
+    CHECK(ks_small_p_value(values) > 0.99);
+
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    RunningStatistics p_values;
+    std::vector<double> sample(100);
+    for (int run = 0; run < 2000; ++run) {
+        for (double& value : sample) value = uniform(random);
+        p_values.add(ks_small_p_value(sample));
+    }
+    CHECK(std::abs(p_values.mean() - 0.5) < 5 * p_values.standard_error());
+}
