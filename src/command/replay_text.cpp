@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -54,7 +55,7 @@ std::vector<Quantity> quantities_of(const PathRecord& path, std::size_t i)
     return all;
 }
 
-// 0 for what is equal, infinite values and NaN included; sums that differ by contributions are seen in the sums.
+// 0 for what is equal, infinite values and NaN included.
 double difference(const Quantity& a, const Quantity& b)
 {
     const bool same = std::equal(&a.value.x, &a.value.x + 3, &b.value.x,
@@ -66,10 +67,12 @@ double difference(const Quantity& a, const Quantity& b)
     return std::isnan(d) ? std::numeric_limits<double>::infinity() : d;
 }
 
-// Error bounds differ by the precision's nature.
+// Error bounds differ by the precision's nature, and what a vertex adds is a difference of sums that cancels: the sums
+// themselves are compared.
 bool is_compared(const Quantity& q)
 {
-    return std::string(q.name) != "error bound";
+    const std::string name = q.name;
+    return name != "error bound" && name != "emission met" && name != "light sampled";
 }
 
 // In the scene's own units.
@@ -87,6 +90,7 @@ bool is_single_number(const Quantity& q)
 
 std::string number_text(double x, Precision precision)
 {
+    x += 0.0; // no -0
     return precision == Precision::fp64 ? fmt::format("{:.12g}", x) : fmt::format("{:.8g}", x);
 }
 
