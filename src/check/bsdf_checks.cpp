@@ -167,7 +167,7 @@ Results check_integrals(const CheckContext& context, const std::string& name, co
     const std::vector<Direction> grid = sphere_grid(512, 128);
     const std::vector<RandomWords> random = random_words(count, context.seed + 19);
     const double solid_angle = 4 * PI / static_cast<double>(grid.size());
-    MeanTests density(context), albedo(context);
+    ExpectedMeans density(context), albedo(context);
     WorstError energy;
     for (const BsdfCase& bsdf : cases) {
         const DeviceBsdf on_device(*context.device, bsdf, context.lanes);

@@ -139,12 +139,13 @@ CheckResult DistributionTests::result(const std::string& name) const
     return result;
 }
 
-MeanTests::MeanTests(const CheckContext& context)
+ExpectedMeans::ExpectedMeans(const CheckContext& context)
     : delta_(context.delta), critical_(normal_quantile(1.0 - 0.5 * context.test_alpha))
 {
 }
 
-void MeanTests::add(const std::string& subject, double mean, double standard_error, double expected, double tolerance)
+void ExpectedMeans::add(const std::string& subject, double mean, double standard_error, double expected,
+                        double tolerance)
 {
     const double excess = std::max(std::abs(mean - expected) - tolerance, 0.0);
     double z = excess == 0.0 ? 0.0 : excess / standard_error;
@@ -159,7 +160,7 @@ void MeanTests::add(const std::string& subject, double mean, double standard_err
         worst_bias_ = std::max(worst_bias_, (critical_ + POWER_QUANTILE) * standard_error / std::abs(expected));
 }
 
-CheckResult MeanTests::result(const std::string& name) const
+CheckResult ExpectedMeans::result(const std::string& name) const
 {
     CheckResult result;
     result.name = name;

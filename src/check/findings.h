@@ -82,10 +82,10 @@ private:
 
 // Means of many samples against expected values, each at the context's level by the normal distribution; the result is
 // the largest |z|.
-class MeanTests
+class ExpectedMeans
 {
 public:
-    explicit MeanTests(const CheckContext& context);
+    explicit ExpectedMeans(const CheckContext& context);
 
     // `tolerance`: how far the expected value itself may be off.
     void add(const std::string& subject, double mean, double standard_error, double expected, double tolerance);

@@ -81,7 +81,7 @@ TEST_CASE("a mean is right within its error, wrong beyond, underpowered when the
 {
     const CheckContext context; // sees 0.5 %
     const auto result = [&](double mean, double standard_error) {
-        MeanTests tests(context);
+        ExpectedMeans tests(context);
         tests.add("mean", mean, standard_error, 2.0, 0.0);
         return tests.result("x").verdict;
     };
