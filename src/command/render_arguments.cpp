@@ -35,13 +35,24 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t largest)
     return CLI::Validator(check, "");
 }
 
-// Checks that an option is a positive number of seconds.
-CLI::Validator positive_seconds()
+// Checks that an option is a positive number, of seconds for example.
+CLI::Validator positive(const std::string& unit)
+{
+    const auto check = [=](std::string& text) -> std::string {
+        double value = 0.0;
+        if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0) return {};
+        return fmt::format("must be more than 0{}, is \"{}\".", unit, text);
+    };
+    return CLI::Validator(check, "");
+}
+
+// Checks that an option is a probability that one may be confident of.
+CLI::Validator confidence()
 {
     const auto check = [](std::string& text) -> std::string {
         double value = 0.0;
-        if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0) return {};
-        return fmt::format("must be more than 0 seconds, is \"{}\".", text);
+        if (CLI::detail::lexical_cast(text, value) && value >= 0.5 && value <= 0.9999) return {};
+        return fmt::format("must be between 0.5 and 0.9999, is \"{}\".", text);
     };
     return CLI::Validator(check, "");
 }
@@ -107,8 +118,19 @@ void add_render_options(CLI::App& command, RenderArguments& a)
         .add_option("--time", a.seconds,
                     "Stop rendering after so many seconds: the next pass is predicted and left out when it\n"
                     "would not fit. Without --spp the number of samples is not limited")
-        ->check(positive_seconds())
+        ->check(positive(" seconds"))
         ->type_name("SECONDS");
+    command
+        .add_option("--error", a.error,
+                    "Stop when the relative error of the picture (0.01: one per cent) is below this: its\n"
+                    "upper confidence limit, in two looks in a row. Without --spp the number of samples\n"
+                    "is not limited")
+        ->check(positive(""))
+        ->type_name("E");
+    command.add_option("--confidence", a.confidence, "Confidence of the limit that --error stops by")
+        ->check(confidence())
+        ->type_name("P")
+        ->capture_default_str();
     command.add_option("--seed", a.seed, "Seed of the random numbers, below 2^63, instead of the scene's")
         ->transform(whole_number(0, MAX_SEED))
         ->type_name("N");
