@@ -1,8 +1,14 @@
 // Options and choices of `etendue check`.
 #include "command/check_arguments.h"
 
+#include "check/bsdf_checks.h"
+#include "check/bvh_checks.h"
+#include "check/device_checks.h"
+#include "check/light_checks.h"
 #include "check/not_covered.h"
+#include "check/sampling_checks.h"
 #include "check/scene_checks.h"
+#include "check/twin_checks.h"
 #include "util/suggestion.h"
 
 #include <algorithm>
@@ -30,6 +36,12 @@ const std::vector<CheckList>& check_lists()
 {
     static const std::vector<CheckList> lists{
         {{"analytic", "stiff"}, stiff_scene_checks},
+        {{"bsdf"}, bsdf_checks},
+        {{"sampling"}, sampling_checks},
+        {{"sampling"}, light_checks},
+        {{"bvh"}, bvh_checks},
+        {{"device"}, device_checks},
+        {{"device"}, twin_checks},
         {{"stiff"}, not_covered_checks},
     };
     return lists;

@@ -5,6 +5,7 @@
 #include "command/render_arguments.h"
 #include "command/replay.h"
 #include "image/image_io.h"
+#include "render/error_target.h"
 #include "render/render_settings.h"
 #include "render/renderer.h"
 #include "render/report.h"
@@ -20,6 +21,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -32,13 +34,14 @@ const char* const EXAMPLES =
     "  etendue render scenes/course-box/simple.json\n"
     "  etendue render room.json -o room.exr -o room.png --spp 256 --report report.json\n"
     "  etendue render room.json --time 30 --device gpu\n"
+    "  etendue render room.json --error 0.02 --time 600\n"
     "  etendue render room.json --integrator normals -o normals.png\n"
     "  etendue render room.json -D integrator.max_depth=1 --crop 100,100,64,64\n"
     "\n"
     "Ctrl-C finishes the launch in flight and writes the samples there are (exit code 130); a\n"
     "second one ends at once. The same seed on the same device gives the same bits.";
 
-// More samples than a life is long, for renders that only time ends.
+// More samples than a life is long, for renders that only time or their error ends.
 constexpr std::uint64_t UNLIMITED_SAMPLES = std::uint64_t{1} << 40;
 
 // Only EXR files hold albedo, normal and depth.
@@ -84,10 +87,10 @@ void describe(const Scene& scene, const Geometry& geometry, Log& log)
 
 // A film's relative error for a progress line: of a large film it takes long, so it is worked out anew only when that
 // costs no more than a fiftieth of the time.
-class ErrorEstimate
+class ShownError
 {
 public:
-    explicit ErrorEstimate(const Film& film) : film_(film) {}
+    explicit ShownError(const Film& film) : film_(film) {}
 
     double operator()()
     {
@@ -109,20 +112,32 @@ RenderLimits render_limits(const Scene& scene, const RenderArguments& arguments)
     RenderLimits limits;
     limits.samples_per_pixel = wanted_samples(scene);
     const bool is_noisy = scene.integrator.type != IntegratorType::normals;
-    if (arguments.seconds && !arguments.samples && is_noisy) limits.samples_per_pixel = UNLIMITED_SAMPLES;
+    if ((arguments.seconds || arguments.error) && !arguments.samples && is_noisy)
+        limits.samples_per_pixel = UNLIMITED_SAMPLES;
     limits.seconds = arguments.seconds;
     limits.stop = interrupted;
     return limits;
 }
 
-// Render onto the film and show how far it is; returns the film's relative error.
-double render_film(Renderer& renderer, Film& film, RenderLimits limits, Log& log)
+// A target for the film's error where one is wanted. Throws UsageError when the error cannot be told.
+std::optional<ErrorTarget> error_target(const Scene& scene, const Film& film, const RenderArguments& arguments)
+{
+    if (!arguments.error) return {};
+    check_error_target(scene, film.crop());
+    return std::optional<ErrorTarget>(std::in_place, film, *arguments.error, arguments.confidence);
+}
+
+// Render onto the film and show how far it is, also on the way to an error that falls with the root of the samples;
+// returns the film's relative error.
+double render_film(Renderer& renderer, Film& film, RenderLimits limits, std::optional<double> wanted_error, Log& log)
 {
     Progress progress(log);
-    ErrorEstimate error(film);
+    ShownError error(film);
     RenderProgress last;
     const std::uint64_t shown_total = limits.samples_per_pixel < UNLIMITED_SAMPLES ? limits.samples_per_pixel : 0;
     const auto state = [&](double relative_error) {
+        if (wanted_error && std::isfinite(relative_error) && relative_error > *wanted_error)
+            last.fraction = std::max(last.fraction, std::pow(*wanted_error / relative_error, 2.0));
         return ProgressState{last.fraction, last.samples_per_pixel, shown_total, static_cast<double>(last.rays),
                              relative_error};
     };
@@ -166,6 +181,24 @@ void report_accidents(const RenderReport& report, Log& log)
                         record.count, health_name(kind), record.first->x, record.first->y, record.first->sample,
                         record.first->vertex, record.replay));
     }
+}
+
+void describe_target(const ErrorTarget::Report& target, const RenderReport& report, Log& log)
+{
+    const std::string found =
+        std::isfinite(target.error.relative_error)
+            ? fmt::format("relative error {:.4g} by {}; the true one is above {:.4g} and below {:.4g}, each with a "
+                          "confidence of {:g} %",
+                          target.error.relative_error, name_of(report.error_estimate), target.error.low,
+                          target.error.high, 100.0 * target.confidence)
+            : "relative error unknown";
+    log.info(fmt::format("error {:g} {} after {} samples per pixel and {} looks: {}", target.wanted,
+                         target.reached ? "reached" : "not reached", report.samples_per_pixel, target.looks, found));
+    if (target.error.heavy_tail())
+        log.warning(
+            fmt::format("{:.0f} % of the squared error is in the worst 0.1 % of the pixels: rare bright samples "
+                        "make the error, and others may be still to come.",
+                        100.0 * target.error.top_share));
 }
 
 void summarise(const RenderReport& report, double relative_error, Log& log)
@@ -218,6 +251,7 @@ int render(const RenderArguments& arguments, const std::string& command_line)
     for (const std::string& warning : loaded.warnings) log.warning(warning);
     apply_arguments(scene, arguments);
     Film film(scene.film.width, scene.film.height, crop_of(arguments, scene.film), has_aov);
+    std::optional<ErrorTarget> target = error_target(scene, film, arguments);
     const double parse_seconds = watch.restart();
     const Geometry geometry = make_geometry(scene, {arguments.lenient});
     for (const std::string& warning : geometry.warnings) log.warning(warning);
@@ -225,7 +259,9 @@ int render(const RenderArguments& arguments, const std::string& command_line)
     const double geometry_seconds = watch.restart();
 
     Renderer renderer(scene, geometry, has_aov, render_options(arguments, log));
-    const double relative_error = render_film(renderer, film, render_limits(scene, arguments), log);
+    RenderLimits limits = render_limits(scene, arguments);
+    if (target) limits.after_pass = [&](const PassEnd& end) { return target->go_on(end); };
+    const double relative_error = render_film(renderer, film, limits, arguments.error, log);
     const RenderReport report = with_replays(renderer.report(), arguments, scene);
     if (film.total_samples() == 0) {
         log.warning("interrupted before the first sample: nothing is written.");
@@ -241,9 +277,12 @@ int render(const RenderArguments& arguments, const std::string& command_line)
     phases.emplace_back("write", write_watch.seconds());
     report_accidents(report, log);
     summarise(report, relative_error, log);
+    std::optional<ErrorTarget::Report> target_report;
+    if (target) describe_target(target_report.emplace(target->report()), report, log);
     renderer.store_in_cache();
     if (!arguments.report.empty())
-        write_file(arguments.report, report_json(scene, geometry, report, phases, relative_error, command_line));
+        write_file(arguments.report,
+                   report_json(scene, geometry, report, phases, relative_error, command_line, target_report));
     return static_cast<int>(report.interrupted ? ExitCode::interrupted : ExitCode::success);
 }
 } // namespace

@@ -18,17 +18,6 @@ namespace
 {
 constexpr std::uint64_t MAX_SEED = ~std::uint64_t{0} >> 1;
 
-// Checks that an option is a positive number of seconds.
-CLI::Validator positive_seconds()
-{
-    const auto check = [](std::string& text) -> std::string {
-        double value = 0.0;
-        if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0) return {};
-        return fmt::format("must be more than 0 seconds, is \"{}\".", text);
-    };
-    return CLI::Validator(check, "");
-}
-
 // Index of the variant of a table that an option names.
 std::size_t variant_number(const Table& table, const std::string& option, const std::string& name)
 {
@@ -56,6 +45,28 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t largest)
         // Without leading zeros, which would make it octal.
         text = std::to_string(value);
         return {};
+    };
+    return CLI::Validator(check, "");
+}
+
+// Checks that an option is a positive number, of seconds for example.
+CLI::Validator positive(const std::string& unit)
+{
+    const auto check = [=](std::string& text) -> std::string {
+        double value = 0.0;
+        if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0) return {};
+        return fmt::format("must be more than 0{}, is \"{}\".", unit, text);
+    };
+    return CLI::Validator(check, "");
+}
+
+// Checks that an option is a probability that one may be confident of.
+CLI::Validator confidence()
+{
+    const auto check = [](std::string& text) -> std::string {
+        double value = 0.0;
+        if (CLI::detail::lexical_cast(text, value) && value >= 0.5 && value <= 0.9999) return {};
+        return fmt::format("must be between 0.5 and 0.9999, is \"{}\".", text);
     };
     return CLI::Validator(check, "");
 }
@@ -127,8 +138,19 @@ void add_render_options(CLI::App& command, RenderArguments& a)
         .add_option("--time", a.seconds,
                     "Stop rendering after so many seconds: the next pass is predicted and left out when it\n"
                     "would not fit. Without --spp the number of samples is not limited")
-        ->check(positive_seconds())
+        ->check(positive(" seconds"))
         ->type_name("SECONDS");
+    command
+        .add_option("--error", a.error,
+                    "Stop when the relative error of the picture (0.01: one per cent) is below this: its\n"
+                    "upper confidence limit, in two looks in a row. Without --spp the number of samples\n"
+                    "is not limited")
+        ->check(positive(""))
+        ->type_name("E");
+    command.add_option("--confidence", a.confidence, "Confidence of the limit that --error stops by")
+        ->check(confidence())
+        ->type_name("P")
+        ->capture_default_str();
     command.add_option("--crop", a.crop, "Render and write this rectangle of the film only")->type_name("X,Y,W,H");
     command
         .add_option("--specialize", a.specialize,

@@ -21,7 +21,8 @@ struct RenderArguments {
     std::string device = "auto";
     std::string report;
     std::optional<std::uint64_t> samples, seed;
-    std::optional<double> seconds;
+    std::optional<double> seconds, error;
+    double confidence = 0.95;
     std::string size, crop, integrator, accelerator;
     std::string specialize = "on", precision = "single";
     std::uint32_t threads = 0, lanes = 0;

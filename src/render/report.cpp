@@ -171,6 +171,21 @@ Json::Value health_json(const RenderReport& report)
     return json;
 }
 
+Json::Value target_json(const ErrorTarget::Report& target)
+{
+    Json::Value json;
+    json["wanted"] = target.wanted;
+    json["reached"] = target.reached;
+    json["looks"] = number(target.looks);
+    json["confidence"] = target.confidence;
+    json["relative_error"] = finite_or_null(target.error.relative_error);
+    json["low"] = finite_or_null(target.error.low);
+    json["high"] = finite_or_null(target.error.high);
+    json["top_share"] = target.error.top_share;
+    json["heavy_tail"] = target.error.heavy_tail();
+    return json;
+}
+
 Json::Value rays_json(const RenderReport& report)
 {
     Json::Value json;
@@ -185,7 +200,8 @@ Json::Value rays_json(const RenderReport& report)
 } // namespace
 
 std::string report_json(const Scene& scene, const Geometry& geometry, const RenderReport& report, const Phases& phases,
-                        double relative_error, const std::string& command)
+                        double relative_error, const std::string& command,
+                        const std::optional<ErrorTarget::Report>& target)
 {
     Json::Value json;
     json["etendue"] = ETENDUE_VERSION;
@@ -197,6 +213,7 @@ std::string report_json(const Scene& scene, const Geometry& geometry, const Rend
     json["interrupted"] = report.interrupted;
     json["relative_error"] = finite_or_null(relative_error);
     json["error_estimate"] = name_of(report.error_estimate);
+    if (target) json["error_target"] = target_json(*target);
     json["accelerator"] = report.accelerator == ACCELERATOR_LBVH ? "lbvh" : "none";
     json["precision"] = precision_name(report.precision);
     json["fast_math"] = report.fast_math;

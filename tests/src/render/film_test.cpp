@@ -1,6 +1,7 @@
 // The film against long double sums over every sample, fed through blocks as a device fills them.
 #include "render/film.h"
 #include "util/error.h"
+#include "util/statistics.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -380,4 +381,107 @@ TEST_CASE("a tile outside the crop and a block with too many samples are refused
     blocks[3].sum.s[3] = std::numeric_limits<float>::quiet_NaN();
     CHECK_THROWS_AS(film.store_tile({1, 1, 2, 2}, blocks, none), DeviceError);
     CHECK(film.total_samples() == 0);
+}
+
+TEST_CASE("the error of blocks is that of their means, and of halves that of their difference")
+{
+    const double unknown = std::numeric_limits<double>::infinity();
+    for (const int samples : {1, 63, 64, 65, 127, 128, 150, 192, 256, 300}) {
+        Film film(2, 1, {0, 0, 2, 1}, false), blocks(2, 1, {0, 0, 2, 1}, false), halves(2, 1, {0, 0, 2, 1}, false);
+        Film none(2, 1, {0, 0, 2, 1}, false);
+        blocks.set_error_estimate(ErrorEstimate::blocks);
+        halves.set_error_estimate(ErrorEstimate::halves);
+        none.set_error_estimate(ErrorEstimate::none);
+        for (Film* f : {&film, &blocks, &halves, &none}) launch(*f, f->crop(), 0, samples);
+        for (int x = 0; x < 2; ++x)
+            for (int c = 0; c < 3; ++c) {
+                CAPTURE(samples, x, c);
+                const auto channel = static_cast<std::size_t>(c);
+                long double sums[2] = {0, 0}, counts[2] = {0, 0};
+                std::vector<long double> means(static_cast<std::size_t>(samples / SAMPLES_PER_BLOCK));
+                for (int s = 0; s < samples; ++s) {
+                    const long double value = sample_of(x, 0, s)[channel];
+                    const auto block = static_cast<std::size_t>(s / SAMPLES_PER_BLOCK);
+                    sums[block % 2] += value;
+                    counts[block % 2] += 1;
+                    if (block < means.size()) means[block] += value / SAMPLES_PER_BLOCK;
+                }
+                // The mean of what is known is the same bits, whatever tells its error.
+                for (const Film* f : {&blocks, &halves, &none})
+                    CHECK(f->estimate(x, 0).mean[c] == film.estimate(x, 0).mean[c]);
+                CHECK(none.estimate(x, 0).standard_error[c] == unknown);
+
+                long double mean = 0, squares = 0;
+                const auto n = static_cast<long double>(means.size());
+                for (const long double m : means) mean += m / n;
+                for (const long double m : means) squares += (m - mean) * (m - mean);
+                const double of_blocks =
+                    means.size() < 2 ? unknown : static_cast<double>(std::sqrt(squares / (n - 1) / n));
+                CHECK(blocks.estimate(x, 0).standard_error[c] == Approx(of_blocks).epsilon(1e-5));
+
+                const long double weights = counts[0] * counts[1] / (samples * static_cast<long double>(samples));
+                const double of_halves =
+                    counts[1] == 0
+                        ? unknown
+                        : static_cast<double>(std::abs(sums[0] / counts[0] - sums[1] / counts[1]) * std::sqrt(weights));
+                CHECK(halves.estimate(x, 0).standard_error[c] == Approx(of_halves).epsilon(1e-5));
+            }
+    }
+}
+
+TEST_CASE("samples, blocks and halves agree on the error of independent samples")
+{
+    // The mean over pixels of the squared standard error is unbiased by each of the three.
+    constexpr int SIZE = 24, SAMPLES = 256;
+    constexpr double VARIANCE = 1.0 / SAMPLES; // of the mean of exponential samples
+    std::mt19937 random(5);
+    std::exponential_distribution<float> radiance;
+    for (const ErrorEstimate kind : {ErrorEstimate::samples, ErrorEstimate::blocks, ErrorEstimate::halves}) {
+        Film film(SIZE, SIZE, {0, 0, SIZE, SIZE}, false);
+        film.set_error_estimate(kind);
+        for (int b = 0; b < SAMPLES / SAMPLES_PER_BLOCK; ++b) {
+            std::vector<PixelBlock> blocks(SIZE * SIZE);
+            for (PixelBlock& block : blocks)
+                for (int s = 0; s < SAMPLES_PER_BLOCK; ++s) add_sample(block, {radiance(random), 0.0f, 0.0f});
+            film.store_tile(film.crop(), blocks, {});
+        }
+        RunningStatistics squares;
+        for (int y = 0; y < SIZE; ++y)
+            for (int x = 0; x < SIZE; ++x) squares.add(std::pow(film.estimate(x, y).standard_error.x, 2.0));
+        INFO(name_of(kind) << ": " << squares.mean() << " +- " << squares.standard_error() << " for " << VARIANCE);
+        CHECK(std::abs(squares.mean() - VARIANCE) < 4.5 * squares.standard_error());
+        CHECK(squares.standard_error() < 0.08 * VARIANCE);
+    }
+}
+
+TEST_CASE("the relative error is the root of the mean over the pixels, and unknown where one pixel's is")
+{
+    Film film(3, 2, {0, 0, 3, 2}, false);
+    film.set_error_estimate(ErrorEstimate::halves);
+    launch(film, film.crop(), 0, 64);
+    CHECK(std::isinf(film.relative_error()));
+    launch(film, {0, 0, 2, 2}, 64, 128);
+    CHECK(std::isinf(film.relative_error()));
+    CHECK(std::isinf(film.squared_relative_errors().at(5)));
+    CHECK(std::isfinite(film.squared_relative_errors().at(3)));
+    launch(film, {2, 0, 1, 2}, 64, 128);
+    double sum = 0.0;
+    for (const double error : film.squared_relative_errors()) sum += error;
+    CHECK(film.squared_relative_errors().size() == 6);
+    CHECK(film.relative_error() == Approx(std::sqrt(sum / 6.0)).epsilon(1e-14));
+}
+
+TEST_CASE("how a film estimates its error is settled before its first sample")
+{
+    Film film(1, 1, {0, 0, 1, 1}, false);
+    CHECK(film.error_estimate() == ErrorEstimate::samples);
+    film.set_error_estimate(ErrorEstimate::halves);
+    CHECK(film.error_estimate() == ErrorEstimate::halves);
+    launch(film, film.crop(), 0, 1);
+    CHECK_THROWS_AS(film.set_error_estimate(ErrorEstimate::samples), std::logic_error);
+    CHECK(film.error_estimate() == ErrorEstimate::halves);
+    CHECK(name_of(ErrorEstimate::samples) == std::string("samples"));
+    CHECK(name_of(ErrorEstimate::blocks) == std::string("blocks"));
+    CHECK(name_of(ErrorEstimate::halves) == std::string("halves"));
+    CHECK(name_of(ErrorEstimate::none) == std::string("none"));
 }

@@ -72,6 +72,27 @@ TEST_CASE("numbers of the scene and its geometry are in the settings")
     CHECK(s.scene_bounds.s[3] > 0.0f);
 }
 
+TEST_CASE("the sampler is a number, and decides what tells the error of a picture")
+{
+    struct Choice {
+        const char* sampler;
+        uint number, replicates;
+        ErrorEstimate estimate;
+    };
+    for (const Choice& choice :
+         {Choice{R"("independent")", SAMPLER_INDEPENDENT, 2, ErrorEstimate::samples},
+          Choice{R"("stratified")", SAMPLER_STRATIFIED, 2, ErrorEstimate::blocks},
+          Choice{R"("sobol")", SAMPLER_SOBOL, 2, ErrorEstimate::halves},
+          Choice{R"({"type": "sobol", "replicates": 2})", SAMPLER_SOBOL, 2, ErrorEstimate::halves},
+          Choice{R"({"type": "sobol", "replicates": 1})", SAMPLER_SOBOL, 1, ErrorEstimate::none}}) {
+        INFO(choice.sampler);
+        const Made made = make({std::string("sampler=") + choice.sampler});
+        CHECK(made.settings.sampler == choice.number);
+        CHECK(made.settings.replicates == choice.replicates);
+        CHECK(error_estimate_of(made.scene) == choice.estimate);
+    }
+}
+
 TEST_CASE("an unlimited depth is the largest number")
 {
     CHECK(settings_of({"integrator.max_depth=\"unlimited\""}).max_depth == NO_INDEX);

@@ -15,7 +15,7 @@ namespace
 {
 const char* const SCENE = R"({
     "film": {"size": [4, 4]},
-    "sampler": {"seed": 9007199254740993},
+    "sampler": {"type": "sobol", "seed": 9007199254740993},
     "materials": [{"name": "grey", "type": "diffuse", "albedo": 0.5}],
     "shapes": [{"type": "box", "size": [1, 1, 1], "material": "grey"}],
     "lights": [{"type": "sphere", "radius": 0.1, "radiance": 1, "transform": {"translate": [0, 2, 0]}}]
@@ -65,6 +65,7 @@ struct Rendered {
     {
         report.devices = {device_report("First"), device_report("Second")};
         report.samples_per_pixel = 40;
+        report.error_estimate = ErrorEstimate::halves;
         report.render_seconds = 2.0;
         report.counts = {100, 200, 300, 30, 40};
         report.health[HEALTH_NEGATIVE_PDF] = {4, AccidentPlace{std::uint64_t{1} << 33, 3, 2, 1}};
@@ -96,6 +97,9 @@ TEST_CASE("the report has everything about the render as a whole")
     CHECK(json["samples_per_pixel"].asUInt64() == 40);
     CHECK(json["interrupted"] == Json::Value(false));
     CHECK(json["relative_error"].asDouble() == 0.25);
+    CHECK(json["sampler"].asString() == "sobol");
+    CHECK(json["error_estimate"].asString() == "halves");
+    CHECK_FALSE(json.isMember("error_target"));
     CHECK(json["accelerator"].asString() == "lbvh");
     CHECK(json["seconds"]["parse"].asDouble() == 0.5);
     CHECK(json["seconds"]["render"].asDouble() == 2.0);
@@ -176,6 +180,22 @@ TEST_CASE("an unknown error is null, and the report stays JSON")
     CHECK(json["relative_error"].isNull());
 }
 
+TEST_CASE("the report says how a wanted error was estimated and how well it is known")
+{
+    const Rendered r;
+    ErrorTarget::Report target{0.25, 0.9, true, 7, {0.125, 0.0625, 0.1875, 0.75}};
+    const auto json_with = [&] {
+        return parse(report_json(r.scene, r.geometry, r.report, r.phases, 0.125, "etendue render x", target));
+    };
+    CHECK(json_with()["error_target"] ==
+          parse(R"({"wanted": 0.25, "reached": true, "looks": 7, "confidence": 0.9, "relative_error": 0.125,
+                    "low": 0.0625, "high": 0.1875, "top_share": 0.75, "heavy_tail": true})"));
+    target.error.high = std::numeric_limits<double>::infinity();
+    target.error.top_share = 0.5;
+    CHECK(json_with()["error_target"]["high"].isNull());
+    CHECK(json_with()["error_target"]["heavy_tail"] == Json::Value(false));
+}
+
 TEST_CASE("a picture knows where it comes from")
 {
     Rendered rendered;
@@ -185,6 +205,8 @@ TEST_CASE("a picture knows where it comes from")
     CHECK(metadata.at("etendue:scene_sha256") == rendered.scene.sha256);
     CHECK(metadata.at("etendue:seed") == "9007199254740993");
     CHECK(metadata.at("etendue:spp") == "40");
+    CHECK(metadata.at("etendue:sampler") == "sobol");
+    CHECK(metadata.at("etendue:error_estimate") == "halves");
     CHECK(metadata.at("etendue:device") == "First, Second");
     CHECK(metadata.at("etendue:driver") == "OpenCL 3.0 / 7.5, OpenCL 3.0 / 7.5");
     CHECK(metadata.at("etendue:seconds") == "parse 0.500000, render 2.000000");

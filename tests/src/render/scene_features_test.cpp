@@ -18,6 +18,7 @@ const char* const SCENE = R"({
     "film": {"size": [4, 4]},
     "integrator": {"type": "bsdf", "max_depth": 3, "roulette": "off"},
     "accelerator": "none",
+    "sampler": "independent",
     "materials": [{"name": "grey", "type": "diffuse", "albedo": 0.5},
                   {"name": "mirror", "type": "mirror"}, {"name": "glass", "type": "dielectric"}],
     "shapes": [{"type": "rectangle", "size": [2, 2], "material": "grey"}]
@@ -44,7 +45,7 @@ using Names = std::set<std::string>;
 
 TEST_CASE("a plain scene has the features of its one surface and its camera")
 {
-    CHECK(names_of(specialization_of({})) == Names{"diffuse", "pinhole", "none"});
+    CHECK(names_of(specialization_of({})) == Names{"diffuse", "pinhole", "independent", "none"});
     CHECK(specialization_of({}).lanes == 4);
     CHECK(specialization_of({}).stack_size == 64);
 }
@@ -53,37 +54,40 @@ TEST_CASE("every change of a scene brings its own features and no others")
 {
     const auto with = [](std::vector<std::string> overrides) { return names_of(specialization_of(overrides)); };
     const std::string moved = R"("transform":{"translate":[0,0,2]}})";
-    CHECK(with({"shapes.0.material=mirror"}) == Names{"mirror", "pinhole", "none"});
+    CHECK(with({"shapes.0.material=mirror"}) == Names{"mirror", "pinhole", "independent", "none"});
     CHECK(with({R"(shapes=[{"type":"sphere","radius":1,"material":"glass"}])"}) ==
-          Names{"dielectric", "sphere", "pinhole", "none"});
+          Names{"dielectric", "sphere", "pinhole", "independent", "none"});
     CHECK(with({R"(shapes=[{"type":"disk","radius":1,"material":"grey"}])"}) ==
-          Names{"diffuse", "disk", "pinhole", "none"});
-    CHECK(with({"accelerator=lbvh"}) == Names{"diffuse", "pinhole", "lbvh"});
-    CHECK(with({"integrator.type=hemisphere"}) == Names{"diffuse", "pinhole", "none", "uniform_hemisphere"});
-    CHECK(with({"integrator.roulette=throughput"}) == Names{"diffuse", "pinhole", "none", "roulette"});
+          Names{"diffuse", "disk", "pinhole", "independent", "none"});
+    CHECK(with({"accelerator=lbvh"}) == Names{"diffuse", "pinhole", "independent", "lbvh"});
+    CHECK(with({"integrator.type=hemisphere"}) == Names{"diffuse", "pinhole", "independent", "none", "uniform_hemisphere"});
+    CHECK(with({"integrator.roulette=throughput"}) == Names{"diffuse", "pinhole", "independent", "none", "roulette"});
     CHECK(with({R"(integrator.roulette={"type":"constant","probability":0.5})"}) ==
-          Names{"diffuse", "pinhole", "none", "roulette"});
-    CHECK(with({"film.filter=tent"}) == Names{"diffuse", "pinhole", "none", "filter"});
+          Names{"diffuse", "pinhole", "independent", "none", "roulette"});
+    CHECK(with({"sampler=stratified"}) == Names{"diffuse", "pinhole", "stratified", "none"});
+    CHECK(with({"sampler=sobol"}) == Names{"diffuse", "pinhole", "sobol", "none"});
+    CHECK(with({R"(sampler={"type":"sobol","replicates":1})"}) == with({"sampler=sobol"}));
+    CHECK(with({"film.filter=tent"}) == Names{"diffuse", "pinhole", "independent", "none", "filter"});
     CHECK(with({R"(environment={"radiance":1})"}) ==
-          Names{"diffuse", "pinhole", "none", "environment", "emission_sampling"});
+          Names{"diffuse", "pinhole", "independent", "none", "environment", "emission_sampling"});
     CHECK(with({R"(shapes=[{"type":"triangles","positions":[[0,0,0],[1,0,0],[0,1,0]],"indices":[[0,1,2]],
                 "normals":[[0.6,0,0.8],[0,0,1],[0,0,1]],"material":"grey"}])"}) ==
-          Names{"diffuse", "pinhole", "none", "vertex_normals"});
+          Names{"diffuse", "pinhole", "independent", "none", "vertex_normals"});
     // A light brings its shape; its surface is black but has a material too.
     const std::string light = R"(lights=[{"type":"rectangle","size":[1,1],"radiance":1,)" + moved + "]";
-    CHECK(with({light}) == Names{"diffuse", "pinhole", "none", "area", "emission_sampling"});
+    CHECK(with({light}) == Names{"diffuse", "pinhole", "independent", "none", "area", "emission_sampling"});
     CHECK(with({light, "integrator.type=path"}) ==
-          Names{"diffuse", "pinhole", "none", "area", "emission_sampling", "light_sampling"});
-    CHECK(with({light, "integrator.type=light"}) == Names{"diffuse", "pinhole", "none", "area", "light_sampling"});
+          Names{"diffuse", "pinhole", "independent", "none", "area", "emission_sampling", "light_sampling"});
+    CHECK(with({light, "integrator.type=light"}) == Names{"diffuse", "pinhole", "independent", "none", "area", "light_sampling"});
     // Without a light there is nothing to sample.
-    CHECK(with({"integrator.type=path"}) == Names{"diffuse", "pinhole", "none"});
-    CHECK(names_of(specialization_of({}, true)) == Names{"diffuse", "pinhole", "none", "aov"});
+    CHECK(with({"integrator.type=path"}) == Names{"diffuse", "pinhole", "independent", "none"});
+    CHECK(names_of(specialization_of({}, true)) == Names{"diffuse", "pinhole", "independent", "none", "aov"});
 }
 
 TEST_CASE("numbers that a user may turn change no feature")
 {
     CHECK(specialization_of({}) ==
-          specialization_of({"film.size=[9,3]", "sampler.spp=3", "sampler.seed=5", "integrator.max_depth=9",
+          specialization_of({"film.size=[9,3]", R"(sampler={"type":"independent","spp":3,"seed":5})", "integrator.max_depth=9",
                              "camera.vertical_fov=50", "materials.0.albedo=0.1", "integrator.roulette=off"}));
 }
 

@@ -36,6 +36,7 @@ TEST_CASE("what a file leaves out is what scene.h says", "[host]")
     const SamplerDescription sampler;
     CHECK(scene.sampler.samples_per_pixel == sampler.samples_per_pixel);
     CHECK(scene.sampler.seed == sampler.seed);
+    CHECK(scene.sampler.replicates == sampler.replicates);
     CHECK_FALSE(scene.accelerator.type.has_value());
     CHECK(scene.accelerator.build == BuildPlace::automatic);
     CHECK_FALSE(scene.course_format);
@@ -50,7 +51,7 @@ TEST_CASE("every key of camera, film, integrator, sampler, accelerator and envir
                  "exposure": -1.5},
         "integrator": {"type": "light", "max_depth": "unlimited",
                        "roulette": {"type": "constant", "probability": 0.7, "start": 5}},
-        "sampler": {"type": "independent", "spp": 17, "seed": 18446744073709551615},
+        "sampler": {"type": "stratified", "spp": 17, "seed": 18446744073709551615},
         "accelerator": {"type": "lbvh", "build": "host"},
         "environment": {"radiance": [1, 2, 3]}})");
     CHECK(scene.camera.position == Vec3(1, 2, 3));
@@ -72,6 +73,7 @@ TEST_CASE("every key of camera, film, integrator, sampler, accelerator and envir
     CHECK(scene.integrator.roulette_start == 5);
     CHECK(scene.sampler.samples_per_pixel == 17);
     CHECK(scene.sampler.seed == 18446744073709551615u);
+    CHECK(scene.sampler.type == SamplerType::stratified);
     CHECK(scene.accelerator.type == ACCELERATOR_LBVH);
     CHECK(scene.accelerator.build == BuildPlace::host);
     CHECK(scene.environment->radiance == Vec3(1, 2, 3));
