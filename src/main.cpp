@@ -1,4 +1,5 @@
 // Parse the command line, run one command, and turn an Error into one message and an exit code.
+#include "command/compare.h"
 #include "command/converge.h"
 #include "command/devices.h"
 #include "command/render.h"
@@ -25,6 +26,7 @@ int run(int argc, char** argv)
     etendue::register_render(app, action);
     etendue::register_converge(app, action);
     etendue::register_devices(app, action);
+    etendue::register_compare(app, action);
     etendue::register_schema(app, action);
     try {
         app.parse(argc, argv);

@@ -1,6 +1,7 @@
 // `etendue render`: load, render, write.
 #include "command/render.h"
 
+#include "command/command_line.h"
 #include "command/render_arguments.h"
 #include "image/image_io.h"
 #include "render/render_settings.h"
@@ -226,19 +227,6 @@ int render(const RenderArguments& arguments, const std::string& command_line)
     if (!arguments.report.empty())
         write_file(arguments.report, report_json(scene, geometry, report, phases, relative_error, command_line));
     return static_cast<int>(report.interrupted ? ExitCode::interrupted : ExitCode::success);
-}
-// The command as it was given, for the report.
-std::string command_line(const CLI::App& command)
-{
-    std::string text = "etendue " + command.get_name();
-    for (const CLI::Option* option : command.get_options()) {
-        if (option->get_name() == "--help") continue;
-        for (const std::string& value : option->results()) {
-            if (!option->get_positional()) text += ' ' + option->get_name();
-            if (option->get_items_expected_max() > 0) text += ' ' + value;
-        }
-    }
-    return text;
 }
 } // namespace
 

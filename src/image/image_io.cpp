@@ -208,6 +208,12 @@ WriteReport write_image(const Image& image, const std::string& path, const Write
     return report;
 }
 
+std::string png_bytes(const Image& image, const WriteOptions& options)
+{
+    const std::vector<unsigned char> bytes = encode_display(image, "a picture in memory", Format::png, options);
+    return {bytes.begin(), bytes.end()};
+}
+
 void check_image_path(const std::string& path)
 {
     format_of(path);

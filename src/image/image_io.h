@@ -27,6 +27,9 @@ struct WriteReport {
 // Throws UsageError (unknown extension, no R, G, B) and FileError.
 WriteReport write_image(const Image& image, const std::string& path, const WriteOptions& options = {});
 
+// The bytes of a .png of the picture, for what holds pictures within itself. Throws UsageError (no R, G, B).
+std::string png_bytes(const Image& image, const WriteOptions& options = {});
+
 // Throw what write_image would throw for this path: unknown extension, missing folder, or one that cannot be written
 // to. For before the work is done.
 void check_image_path(const std::string& path);

@@ -180,4 +180,15 @@ double ks_uniform_p_value(std::vector<double> values)
     }
     return kolmogorov_tail((std::sqrt(n) + 0.12 + 0.11 / std::sqrt(n)) * distance);
 }
+
+double ks_small_p_value(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    const double n = static_cast<double>(values.size());
+    double distance = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        distance = std::max(distance, static_cast<double>(i + 1) / n - values[i]);
+    const double scaled = (std::sqrt(n) + 0.12 + 0.11 / std::sqrt(n)) * distance;
+    return std::exp(-2.0 * scaled * scaled);
+}
 } // namespace etendue

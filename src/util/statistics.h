@@ -56,4 +56,8 @@ double sidak_alpha(double family_alpha, std::size_t tests);
 // uniform distribution function as far as this one or farther), by the limit distribution with Stephens' (1970)
 // correction for small samples. At least 5 values.
 double ks_uniform_p_value(std::vector<double> values);
+
+// The same against too many small values only: P(the empirical distribution function above the uniform one by as much
+// somewhere, or more). Smirnov's (1944) limit exp(-2 n d^2), with Stephens' correction.
+double ks_small_p_value(std::vector<double> values);
 } // namespace etendue
