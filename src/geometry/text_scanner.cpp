@@ -1,6 +1,7 @@
 // Scanning of text without copies.
 #include "geometry/text_scanner.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
@@ -18,6 +19,20 @@ std::string_view without_plus(std::string_view word)
 {
     const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
     return plus ? word.substr(1) : word;
+}
+
+// Whether a number, written with digits and perhaps an exponent, is less than one but for its sign: by the power of ten
+// of its first digit that is not zero.
+bool is_below_one(std::string_view number)
+{
+    const std::size_t e = std::min(number.find_first_of("eE"), number.size());
+    const std::string_view mantissa = number.substr(0, e);
+    const auto point = static_cast<std::int64_t>(std::min(mantissa.find('.'), mantissa.size()));
+    const auto first = static_cast<std::int64_t>(mantissa.find_first_of("123456789"));
+    const std::int64_t power = first < point ? point - first - 1 : point - first;
+    if (e == number.size()) return power < 0;
+    const auto exponent = parse_integer(number.substr(e + 1));
+    return exponent ? *exponent < -power : number[e + 1] == '-';
 }
 } // namespace
 
@@ -49,9 +64,7 @@ std::optional<double> parse_real(std::string_view word)
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (error == std::errc::invalid_argument || end != digits.data() + digits.size()) return std::nullopt;
     if (error != std::errc::result_out_of_range) return value;
-    const bool tiny = digits.find("e-") != std::string_view::npos || digits.find("E-") != std::string_view::npos ||
-                      digits.find_first_of("eE") == std::string_view::npos;
-    const double magnitude = tiny ? 0.0 : std::numeric_limits<double>::infinity();
+    const double magnitude = is_below_one(digits) ? 0.0 : std::numeric_limits<double>::infinity();
     return digits[0] == '-' ? -magnitude : magnitude;
 }
 

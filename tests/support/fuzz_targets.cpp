@@ -3,11 +3,13 @@
 
 #include "geometry/geometry.h"
 #include "geometry/mesh_io.h"
+#include "geometry/text_scanner.h"
 #include "scene/scene_loader.h"
 #include "util/json.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <string>
 #include <vector>
@@ -134,6 +136,22 @@ Scene scene_of(const Mesh& mesh, const std::string& file)
     return scene;
 }
 
+// Each word that is a number means what the C library reads.
+void check_numbers(std::string_view input)
+{
+    TextScanner scanner(input);
+    while (scanner.next_line())
+        for (std::string_view word = scanner.next_word(); !word.empty(); word = scanner.next_word()) {
+            const auto value = parse_real(word);
+            if (!value) continue;
+            const std::string text(word);
+            char* end = nullptr;
+            const double expected = std::strtod(text.c_str(), &end);
+            require(end == text.c_str() + text.size(), "a number is one for the C library, too: " + text);
+            require(*value == expected || (std::isnan(*value) && std::isnan(expected)), "numbers are exact: " + text);
+        }
+}
+
 void fuzz_mesh(std::string_view input, const std::string& file)
 {
     for (const bool lenient : {false, true}) {
@@ -165,6 +183,7 @@ void fuzz_scene(std::string_view input)
 
 void fuzz_obj(std::string_view input)
 {
+    check_numbers(input);
     fuzz_mesh(input, "fuzz.obj");
 }
 

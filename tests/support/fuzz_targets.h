@@ -16,7 +16,8 @@ struct FuzzFinding : std::logic_error {
 // for each that exists.
 void fuzz_scene(std::string_view input);
 
-// A mesh file, then the geometry of a scene that has nothing but this mesh.
+// A mesh file, then the geometry of a scene that has nothing but this mesh. Numbers of OBJ files are compared with
+// those of the C library.
 void fuzz_obj(std::string_view input);
 void fuzz_ply(std::string_view input);
 } // namespace etendue

@@ -36,6 +36,15 @@ TEST_CASE("a real number is the nearest double and nothing but a whole number wo
     CHECK(parse_real("1e400").value() == std::numeric_limits<double>::infinity());
     CHECK(parse_real("-1e400").value() == -std::numeric_limits<double>::infinity());
     CHECK(parse_real("1e-400").value() == 0.0);
+    const std::string zeros(400, '0');
+    CHECK(parse_real("-1" + zeros).value() == -std::numeric_limits<double>::infinity());
+    CHECK(parse_real("1" + zeros + ".5e-9").value() == std::numeric_limits<double>::infinity());
+    CHECK(parse_real("1" + zeros + "e-500").value() == 1e-100);
+    CHECK(parse_real("0." + zeros + "1e+9").value() == 0.0);
+    CHECK(parse_real("0." + zeros + "1E501").value() == 1e100);
+    CHECK(parse_real("0e99999999999999999999").value() == 0.0);
+    CHECK(parse_real("1e99999999999999999999").value() == std::numeric_limits<double>::infinity());
+    CHECK(parse_real("1e-99999999999999999999").value() == 0.0);
     for (const char* word : {"", "1,5", "1.5x", "x", "+-1", "--1", "+", "1e", "0x10"}) {
         INFO(word);
         CHECK_FALSE(parse_real(word).has_value());
