@@ -19,7 +19,7 @@ namespace
 constexpr double PI = std::numbers::pi;
 constexpr std::size_t BINS = 8;
 // Enough to see bins that are out by 2 %.
-constexpr double HISTOGRAM_SAMPLES = 300000;
+constexpr double HISTOGRAM_SAMPLES = 330000;
 
 using Results = std::vector<CheckResult>;
 

@@ -1,9 +1,13 @@
 // Passes over several devices: limits, progress, stopping, failures and the report.
+#include "compute/kernel_source.h"
 #include "render/render_settings.h"
 #include "render/renderer.h"
 #include "scene/scene_loader.h"
+#include "support/child_process.h"
 #include "support/device_evaluate.h"
+#include "util/environment.h"
 #include "util/error.h"
+#include "util/file.h"
 
 #include <catch2/catch.hpp>
 
@@ -220,4 +224,52 @@ TEST_CASE("impossible lanes and threads are refused", "[render]")
     CHECK_THROWS_AS(bench.render(limits_of(1)), DeviceError);
     CHECK_THROWS_WITH(bench.render(limits_of(1)),
                       Contains(std::to_string(bench.options.threads) + " threads were asked for"));
+}
+
+namespace
+{
+// The canary's program under a compiler that takes 0 - x for -x.
+class LaxCanary
+{
+public:
+    LaxCanary() : before_(environment("ETENDUE_CL_DIR"))
+    {
+        std::string text = kernel_file("canary.cl");
+        const std::string strict = "0.0 - x";
+        text.replace(text.find(strict), strict.size(), "-x");
+        write_file((folder_.path() / "canary.cl").string(), text);
+        set_environment("ETENDUE_CL_DIR", folder_.path().string());
+    }
+    ~LaxCanary() { set_environment("ETENDUE_CL_DIR", before_); }
+    LaxCanary(const LaxCanary&) = delete;
+    LaxCanary& operator=(const LaxCanary&) = delete;
+
+private:
+    TemporaryFolder folder_;
+    std::string before_;
+};
+} // namespace
+
+TEST_CASE("a device whose canary fails renders nothing, unless fast math was asked for", "[render]")
+{
+    const LaxCanary lax;
+    Bench strict, fast;
+    CHECK_THROWS_AS(strict.render(limits_of(1)), DeviceError);
+    CHECK_THROWS_WITH(strict.render(limits_of(1)), Contains("signed_zeros") && Contains("--fast-math"));
+    fast.options.fast_math = true;
+    const RenderReport report = fast.render(limits_of(1));
+    CHECK(report.fast_math);
+    CHECK_FALSE(report.devices.front().canary.passed);
+    CHECK(report.devices.front().builds.front().options.find("-cl-fast-relaxed-math") != std::string::npos);
+    CHECK(report.devices.front().builds.at(1).options.find("-cl-fast-relaxed-math") == std::string::npos);
+}
+
+TEST_CASE("a strict render asks the canary and adds no option to its kernels", "[render]")
+{
+    Bench bench;
+    const RenderReport report = bench.render(limits_of(1));
+    CHECK_FALSE(report.fast_math);
+    CHECK(report.devices.front().canary.passed);
+    for (const BuildReport& build : report.devices.front().builds)
+        CHECK(build.options.find("fast") == std::string::npos);
 }

@@ -45,6 +45,7 @@ DeviceReport device_report(const std::string& name)
     build.source_bytes = 10;
     build.binary_bytes = 20;
     device.builds = {build};
+    device.canary = {false, {{"fma", true, "0 of 8"}, {"division", false, "errs"}}, true, 0.25};
     device.bvh = {13, 12, 13, 5, std::numeric_limits<double>::infinity(), true, {{"sort", 0.25}, {"sort", 0.5}}};
     device.upload_seconds = 0.125;
     device.first_launch_seconds = 0.75;
@@ -144,6 +145,29 @@ TEST_CASE("every device has its own part of the report")
     for (const char* phase : {"bvh", "compile", "render"}) CHECK(device["seconds"][phase].isDouble());
     CHECK(device["builds"] == parse(R"([{"program": "path_megakernel.cl", "options": "-DLANES=8", "log": "a remark",
         "from_cache": true, "stored_in_cache": false, "seconds": 0.5, "source_bytes": 10, "binary_bytes": 20}])"));
+}
+
+TEST_CASE("every device tells what its canary found")
+{
+    const Json::Value canary = json_of(Rendered())["devices"][0]["canary"];
+    CHECK_FALSE(canary["passed"].asBool());
+    CHECK(canary["from_cache"].asBool());
+    CHECK(canary["seconds"].asDouble() == 0.25);
+    REQUIRE(canary["findings"].size() == 2);
+    CHECK(canary["findings"][0]["name"] == "fma");
+    CHECK(canary["findings"][0]["passed"].asBool());
+    CHECK_FALSE(canary["findings"][1]["passed"].asBool());
+    CHECK(canary["findings"][1]["detail"] == "errs");
+}
+
+TEST_CASE("relaxed floating point is named in the report and in the picture, strict is not")
+{
+    Rendered rendered;
+    CHECK_FALSE(json_of(rendered)["fast_math"].asBool());
+    CHECK(image_metadata(rendered.scene, rendered.report, {}).count("etendue:fast_math") == 0);
+    rendered.report.fast_math = true;
+    CHECK(json_of(rendered)["fast_math"].asBool());
+    CHECK(image_metadata(rendered.scene, rendered.report, {}).at("etendue:fast_math").rfind("yes", 0) == 0);
 }
 
 TEST_CASE("the report has the tree's statistics and what each kernel of it took")
