@@ -9,7 +9,7 @@ namespace etendue
 {
 namespace
 {
-constexpr const char* COLUMNS = "{:<13}{:<38} {:<6}{:>24} {:>24} {:>16} {:>8} {:>8}";
+constexpr const char* COLUMNS = "{:<13}{:<44} {:<6}{:>24} {:>24} {:>16} {:>8} {:>8}";
 
 std::string number(double x)
 {
@@ -57,7 +57,7 @@ std::string table_header()
 std::string table_row(const CheckResult& result)
 {
     if (result.verdict == Verdict::not_covered)
-        return fmt::format("{:<13}{:<38} {}", verdict_name(result.verdict), result.name, result.note);
+        return fmt::format("{:<13}{:<44} {}", verdict_name(result.verdict), result.name, result.note);
     std::string row = fmt::format(COLUMNS, verdict_name(result.verdict), result.name, rule_name(result.rule),
                                   fitted(result.expected, 24), fitted(result.found, 24), distance(result),
                                   bias(result.detectable_bias), fmt::format("{:.2f}", result.seconds));

@@ -5,13 +5,23 @@
 
 namespace etendue
 {
+namespace
+{
+// Lanes without a hit read the first element and ignore it, so there must be one even where nothing can be hit.
+template<typename T>
+std::vector<T> at_least_one(const std::vector<T>& elements)
+{
+    return elements.empty() ? std::vector<T>(1) : elements;
+}
+} // namespace
+
 template<typename Reals>
 DeviceScene::RealBuffers<Reals> DeviceScene::upload(const Device& device, const Geometry& geometry,
                                                     const RenderSettings& settings)
 {
     RealBuffers<Reals> buffers;
     buffers.settings = {device, "settings", std::vector{in_reals<Reals>(settings)}};
-    buffers.primitives = {device, "primitives", in_reals<Reals>(geometry.primitives)};
+    buffers.primitives = {device, "primitives", in_reals<Reals>(at_least_one(geometry.primitives))};
     buffers.normals = {device, "vertex normals", in_reals<Reals>(geometry.normals)};
     buffers.parameters = {device, "material parameters", in_reals<Reals>(geometry.parameters)};
     buffers.lights = {device, "lights", in_reals<Reals>(geometry.lights)};
@@ -26,7 +36,7 @@ DeviceScene::DeviceScene(const Device& device, const Geometry& geometry, const R
         reals_ = upload<DoubleReals>(device, geometry, settings);
     else
         reals_ = upload<SingleReals>(device, geometry, settings);
-    surfaces_ = Buffer<PrimitiveSurface>(device, "surfaces", geometry.surfaces);
+    surfaces_ = Buffer<PrimitiveSurface>(device, "surfaces", at_least_one(geometry.surfaces));
     materials_ = Buffer<Material>(device, "materials", geometry.materials);
     light_table_ = Buffer<AliasBucket>(device, "light table", geometry.light_table);
     upload_seconds_ = watch.restart();
