@@ -128,13 +128,13 @@ void judge(Comparison& c)
         c.failures.push_back(
             fmt::format("More p-values of tiles are small than chance allows (p = {:.2g}).", c.tiles.excess_p_value));
     if (c.whole.below_alpha > 0)
-        c.failures.push_back(fmt::format("The pictures as a whole differ: the mean of {} by {:.3g}, z = {:.3g}.",
-                                         CHANNELS[c.whole.worst % 3], c.whole.differences[c.whole.worst],
-                                         c.whole.worst_z));
+        c.failures.push_back(
+            fmt::format("The pictures as a whole differ: the mean of channel {} by {:.3g}, z = {:.3g}.",
+                        CHANNELS[c.whole.worst % 3], c.whole.differences[c.whole.worst], c.whole.worst_z));
 
     if (c.metrics.negative > 0)
-        c.remarks.push_back(
-            fmt::format("{} pixel{} of A below 0.", c.metrics.negative, c.metrics.negative == 1 ? " is" : "s are"));
+        c.remarks.push_back(fmt::format("{} pixel{} of A {} below 0.", c.metrics.negative,
+                                        c.metrics.negative == 1 ? "" : "s", c.metrics.negative == 1 ? "is" : "are"));
     if (c.tiles.untested > 0)
         c.remarks.push_back(
             fmt::format("{} of {} tests of tiles could not be made.", c.tiles.untested, c.tiles.p_values.size()));

@@ -164,11 +164,12 @@ std::string comparison_html(const ComparisonReport& report)
     std::string body = "<h1>" + html_escape(title) + "</h1>\n" + verdict_box(report);
     body += html_section("Pictures", pictures(report));
     body += html_section("How far apart", metrics_table(report));
-    body += html_section("More than noise?",
-                         html_paragraph(report.comparison.variance_reason) + tests_table(report) +
-                             html_drawing("p-values of the tiles. Between equal pictures they are uniform: bars at the "
-                                          "dashed line, within the grey for independent tests.",
-                                          p_value_histogram_svg(report.comparison.tiles.p_values)));
+    body += html_section(
+        "More than noise?",
+        html_paragraph(report.comparison.variance_reason) + tests_table(report) +
+            html_drawing("p-values of the tiles that have noise. Between equal pictures they are uniform: bars at the "
+                         "dashed line, within the grey for independent tests.",
+                         p_value_histogram_svg(report.comparison.tiles.noisy_p_values())));
     body += html_section("Files", files_list(report));
     body += html_section("Command", html_code(report.command));
     return html_page(title, body);

@@ -35,8 +35,8 @@ std::string row(const std::string& label, const std::string& value)
 std::string tests_text(const Comparison& c)
 {
     std::string text = fmt::format("Welch's test: {}\n", c.variance_reason);
-    text += row("tiles",
-                fmt::format("{} tests of {}x{} pixels and one channel", c.tiles.tests, c.tiles.tile, c.tiles.tile));
+    text += row("tiles", fmt::format("{0} tests of {1}x{1} pixels and one channel, {2} without noise", c.tiles.tests,
+                                     c.tiles.tile, c.tiles.exact));
     text += row("below the level", fmt::format("{} with p < {:.3g}", c.tiles.below_alpha, c.tiles.test_alpha));
     if (c.tiles.tests > 0)
         text += row("worst tile", fmt::format("z = {:.3g}, {}", c.tiles.worst_z, place_of_worst(c.tiles)));

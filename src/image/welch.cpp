@@ -65,15 +65,6 @@ void add_test(WelchTiles& tiles, const TileDifference& difference)
     tiles.standard_errors.push_back(std::sqrt(difference.variance));
 }
 
-// P-values of one channel where there is noise.
-std::vector<double> noisy_p_values(const WelchTiles& tiles, std::size_t channel)
-{
-    std::vector<double> values;
-    for (std::size_t i = channel; i < tiles.p_values.size(); i += 3)
-        if (std::isfinite(tiles.p_values[i]) && tiles.standard_errors[i] > 0.0) values.push_back(tiles.p_values[i]);
-    return values;
-}
-
 // What all tests say together.
 void summarise(WelchTiles& tiles, double alpha)
 {
@@ -87,7 +78,7 @@ void summarise(WelchTiles& tiles, double alpha)
         }
     }
     for (std::size_t channel = 0; channel < 3; ++channel) {
-        const std::vector<double> values = noisy_p_values(tiles, channel);
+        const std::vector<double> values = tiles.noisy_p_values(channel);
         if (values.size() < 5) continue;
         tiles.ks_p_value = std::fmin(tiles.ks_p_value, std::min(1.0, 3.0 * ks_uniform_p_value(values)));
         tiles.excess_p_value = std::fmin(tiles.excess_p_value, std::min(1.0, 3.0 * ks_small_p_value(values)));
@@ -119,6 +110,24 @@ void check_sizes(std::size_t a, std::size_t b, int width, int height, int tile)
         throw std::invalid_argument("pictures of another size than they should have are compared");
 }
 } // namespace
+
+std::vector<double> WelchTiles::noisy_p_values(std::size_t channel) const
+{
+    std::vector<double> values;
+    for (std::size_t i = channel; i < p_values.size(); i += 3)
+        if (std::isfinite(p_values[i]) && standard_errors[i] > 0.0) values.push_back(p_values[i]);
+    return values;
+}
+
+std::vector<double> WelchTiles::noisy_p_values() const
+{
+    std::vector<double> values;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const std::vector<double> more = noisy_p_values(channel);
+        values.insert(values.end(), more.begin(), more.end());
+    }
+    return values;
+}
 
 double WelchTiles::detectable_difference() const
 {

@@ -45,6 +45,10 @@ struct WelchTiles {
 
     // The difference that a test would have found with 99 % certainty: that of the tile in the middle, all sorted.
     double detectable_difference() const;
+    // The p-values where there is noise, which are uniform between pictures of the same light; of one channel or of
+    // all.
+    std::vector<double> noisy_p_values(std::size_t channel) const;
+    std::vector<double> noisy_p_values() const;
 };
 
 // Both row by row; throws std::invalid_argument where a size does not fit. `alpha` is the level of all tests together.

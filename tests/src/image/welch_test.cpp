@@ -180,6 +180,7 @@ TEST_CASE("without noise, equal or not is a fact, up to the rounding of floats",
 {
     std::vector<PixelMoments> a(64, {Vec3(0.25), Vec3(0.0), 0}), b = a;
     CHECK(welch_test(a, b, 8, 8, 4).exact == 12);
+    CHECK(welch_test(a, b, 8, 8, 4).noisy_p_values().empty());
     CHECK(welch_test(a, b, 8, 8, 4).worst_z == 0.0);
     for (PixelMoments& pixel : a) pixel.mean.x = 0.25 * (1 + 4e-7);
     CHECK(welch_test(a, b, 8, 8, 4).below_alpha == 0);
