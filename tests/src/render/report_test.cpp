@@ -67,7 +67,8 @@ struct Rendered {
         report.samples_per_pixel = 40;
         report.render_seconds = 2.0;
         report.counts = {100, 200, 300, 30, 40};
-        report.health[HEALTH_NEGATIVE_PDF] = {4, AccidentPlace{std::uint64_t{1} << 33, 3, 2, 1}};
+        report.health[HEALTH_NEGATIVE_PDF] = {4, AccidentPlace{std::uint64_t{1} << 33, 3, 2, 1}, "etendue replay x"};
+        report.precision = Precision::fp64;
         report.warnings = {"First warning."};
         geometry.warnings = {"Second warning."};
     }
@@ -96,6 +97,7 @@ TEST_CASE("the report has everything about the render as a whole")
     CHECK(json["samples_per_pixel"].asUInt64() == 40);
     CHECK(json["interrupted"] == Json::Value(false));
     CHECK(json["relative_error"].asDouble() == 0.25);
+    CHECK(json["precision"] == "fp64");
     CHECK(json["accelerator"].asString() == "lbvh");
     CHECK(json["seconds"]["parse"].asDouble() == 0.5);
     CHECK(json["seconds"]["render"].asDouble() == 2.0);
@@ -165,8 +167,8 @@ TEST_CASE("every health counter is in the report, with the first place of what h
         INFO(health_name(kind));
         if (kind != HEALTH_NEGATIVE_PDF) CHECK(health[health_name(kind)] == parse(R"({"count": 0})"));
     }
-    CHECK(health["negative_pdf"] ==
-          parse(R"({"count": 4, "first": {"pixel": [3, 2], "sample": 8589934592, "vertex": 1}})"));
+    CHECK(health["negative_pdf"] == parse(R"({"count": 4, "first": {"pixel": [3, 2], "sample": 8589934592, "vertex": 1},
+                                             "replay": "etendue replay x"})"));
 }
 
 TEST_CASE("an unknown error is null, and the report stays JSON")
@@ -184,6 +186,7 @@ TEST_CASE("a picture knows where it comes from")
     CHECK(metadata.at("etendue:scene") == "scenes/report.json");
     CHECK(metadata.at("etendue:scene_sha256") == rendered.scene.sha256);
     CHECK(metadata.at("etendue:seed") == "9007199254740993");
+    CHECK(metadata.at("etendue:precision") == "fp64");
     CHECK(metadata.at("etendue:spp") == "40");
     CHECK(metadata.at("etendue:device") == "First, Second");
     CHECK(metadata.at("etendue:driver") == "OpenCL 3.0 / 7.5, OpenCL 3.0 / 7.5");
