@@ -69,7 +69,8 @@ struct Rendered {
         report.error_estimate = ErrorEstimate::halves;
         report.render_seconds = 2.0;
         report.counts = {100, 200, 300, 30, 40};
-        report.health[HEALTH_NEGATIVE_PDF] = {4, AccidentPlace{std::uint64_t{1} << 33, 3, 2, 1}};
+        report.health[HEALTH_NEGATIVE_PDF] = {4, AccidentPlace{std::uint64_t{1} << 33, 3, 2, 1}, "etendue replay x"};
+        report.precision = Precision::fp64;
         report.warnings = {"First warning."};
         geometry.warnings = {"Second warning."};
     }
@@ -101,6 +102,7 @@ TEST_CASE("the report has everything about the render as a whole")
     CHECK(json["sampler"].asString() == "sobol");
     CHECK(json["error_estimate"].asString() == "halves");
     CHECK_FALSE(json.isMember("error_target"));
+    CHECK(json["precision"] == "fp64");
     CHECK(json["accelerator"].asString() == "lbvh");
     CHECK(json["seconds"]["parse"].asDouble() == 0.5);
     CHECK(json["seconds"]["render"].asDouble() == 2.0);
@@ -193,8 +195,8 @@ TEST_CASE("every health counter is in the report, with the first place of what h
         INFO(health_name(kind));
         if (kind != HEALTH_NEGATIVE_PDF) CHECK(health[health_name(kind)] == parse(R"({"count": 0})"));
     }
-    CHECK(health["negative_pdf"] ==
-          parse(R"({"count": 4, "first": {"pixel": [3, 2], "sample": 8589934592, "vertex": 1}})"));
+    CHECK(health["negative_pdf"] == parse(R"({"count": 4, "first": {"pixel": [3, 2], "sample": 8589934592, "vertex": 1},
+                                             "replay": "etendue replay x"})"));
 }
 
 TEST_CASE("an unknown error is null, and the report stays JSON")
@@ -228,6 +230,7 @@ TEST_CASE("a picture knows where it comes from")
     CHECK(metadata.at("etendue:scene") == "scenes/report.json");
     CHECK(metadata.at("etendue:scene_sha256") == rendered.scene.sha256);
     CHECK(metadata.at("etendue:seed") == "9007199254740993");
+    CHECK(metadata.at("etendue:precision") == "fp64");
     CHECK(metadata.at("etendue:spp") == "40");
     CHECK(metadata.at("etendue:sampler") == "sobol");
     CHECK(metadata.at("etendue:error_estimate") == "halves");
