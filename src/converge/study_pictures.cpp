@@ -16,7 +16,7 @@ namespace
 {
 constexpr int SCALE_STEPS = 16;
 
-Image image_of(const StudiedConfiguration& studied, const Pixels& mean, const Pixels& variance)
+Image film_image(const StudiedConfiguration& studied, const Pixels& mean, const Pixels& variance)
 {
     const FilmDescription& film = studied.prepared.scene.film;
     return image_of(mean, variance, film.width, film.height);
@@ -45,7 +45,7 @@ HtmlPicture error_picture(const StudiedConfiguration& studied, const Pixels& mea
     const Pixels& reference = studied.reference->mean;
     const double scale = error_scale(mean, reference);
     HtmlPicture picture =
-        picture_of(signed_error_image(image_of(studied, mean, {}), image_of(studied, reference, {}), scale), {},
+        picture_of(signed_error_image(film_image(studied, mean, {}), film_image(studied, reference, {}), scale), {},
                    "Signed error, of the channel that is off most",
                    "Signed error: blue where the mean is darker than the reference, red where it is brighter");
     std::vector<std::string> colors;
@@ -75,10 +75,11 @@ std::vector<HtmlPicture> study_pictures(const StudiedConfiguration& studied)
     const WriteOptions shown{film.tone_map, film.exposure};
     const Pixels mean = studied.pool.mean();
     std::vector<HtmlPicture> pictures;
-    pictures.push_back(picture_of(image_of(studied, mean, {}), shown,
+    pictures.push_back(picture_of(film_image(studied, mean, {}), shown,
                                   fmt::format("Mean over {} seeds", studied.pool.count()), "The mean over the seeds"));
     if (studied.reference->kind == Reference::Kind::none) return pictures;
-    pictures.push_back(picture_of(image_of(studied, studied.reference->mean, {}), shown, "Reference", "The reference"));
+    pictures.push_back(
+        picture_of(film_image(studied, studied.reference->mean, {}), shown, "Reference", "The reference"));
     pictures.push_back(error_picture(studied, mean));
     if (studied.pool.count() > 1) pictures.push_back(p_value_picture(studied));
     return pictures;
@@ -89,9 +90,9 @@ void write_study_images(const Study& study, const std::string& folder)
     for (const StudiedConfiguration& studied : study.configurations) {
         const std::string stem = (std::filesystem::path(folder) / studied.prepared.configuration.name).string();
         if (studied.pool.count() > 0)
-            write_image(image_of(studied, studied.pool.mean(), studied.pool.variance_of_mean()), stem + ".exr");
+            write_image(film_image(studied, studied.pool.mean(), studied.pool.variance_of_mean()), stem + ".exr");
         if (studied.reference && studied.reference->kind != Reference::Kind::none)
-            write_image(image_of(studied, studied.reference->mean, studied.reference->variance),
+            write_image(film_image(studied, studied.reference->mean, studied.reference->variance),
                         stem + "_reference.exr");
     }
 }
