@@ -139,6 +139,14 @@ STATIC Mask sides_agree(Surface surface, Vec3 w, Vec3 w_local)
     return (dot3(w, surface.ng) > 0.0) == (w_local.z > 0.0);
 }
 
+/* The words of a light sample. Bucket and point share one point of the sampler, the bucket in the upper bits of its
+ * first coordinate, so that points that fill the square evenly fill every bucket's light evenly too. */
+STATIC RandomBlock light_words(SceneView view, RandomBlock random)
+{
+    RandomBlock words = {random.x, random.w, alias_remainder(view.settings->alias_shift, random.x, random.z), random.y};
+    return words;
+}
+
 /* Sample a light from the current vertex and add it where nothing stands between: the path_connect stage. */
 STATIC void path_connect(SceneView view, PathState* path, Surface surface, Frame frame, MaterialLanes material,
                          RayCounts* rays)
@@ -147,7 +155,8 @@ STATIC void path_connect(SceneView view, PathState* path, Surface surface, Frame
     if (none_of(active)) return;
     Vec3 wo = to_local(frame, surface.wo);
     Vec3 from = offset_origin(surface, dot3(surface.wo, surface.ng) > 0.0);
-    LightSample light = light_sample(view, active, from, path_random(path, RANDOM_LIGHT));
+    RandomBlock random = light_words(view, path_random(path, RANDOM_LIGHT));
+    LightSample light = light_sample(view, active, from, random);
     /* Evaluate the BSDF towards the light. */
     Vec3 wi = to_local(frame, light.wi);
     Mask lit = active & (light.pdf > 0.0) & sides_agree(surface, light.wi, wi);

@@ -13,3 +13,10 @@ STATIC Uint alias_sample(global const AliasBucket* table, uint alias_shift, Uint
     Uint alias = gather_uint((global const uint*)table, bucket * 2u + 1u, active);
     return entry_bits < threshold ? bucket : alias;
 }
+
+/* What is left of the bits that have chosen a bucket: uniform again, and independent of the bucket. Bits of `more` come
+ * in from below for those that were used. */
+STATIC Uint alias_remainder(uint alias_shift, Uint bucket_bits, Uint more)
+{
+    return (bucket_bits << (32u - alias_shift)) | ((more >> (alias_shift - 1u)) >> 1);
+}

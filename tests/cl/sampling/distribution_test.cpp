@@ -11,8 +11,10 @@ using namespace etendue;
 namespace
 {
 // alias_shift comes in an array, as it is uniform.
-const DeviceFunctions functions({"sampling/distribution.h"}, {{"alias", "AliasBucket* uint* uint uint mask -> uint",
-                                                               "alias_sample(in0, in1[0], in2, in3, in4)"}});
+const DeviceFunctions
+    functions({"sampling/distribution.h"},
+              {{"alias", "AliasBucket* uint* uint uint mask -> uint", "alias_sample(in0, in1[0], in2, in3, in4)"},
+               {"remainder", "uint* uint uint -> uint", "alias_remainder(in0[0], in1, in2)"}});
 
 using Words = std::vector<std::uint32_t>;
 
@@ -104,4 +106,27 @@ TEST_CASE("lanes that draw nothing leave the draws of the others alone")
                 .get<std::uint32_t>(0);
         for (const std::size_t i : {0u, 2u, 4u}) CHECK(chosen[i] == 1);
     }
+}
+
+TEST_CASE("what a bucket leaves of its bits is all of them but those it took, with others below")
+{
+    std::mt19937 random(6);
+    Words bits, more;
+    for (int i = 0; i < 1000; ++i) {
+        bits.push_back(static_cast<std::uint32_t>(random()));
+        more.push_back(static_cast<std::uint32_t>(random()));
+    }
+    for (Device& device : test_devices())
+        for (const std::uint32_t log2_size : {0u, 1u, 7u, 20u, 31u}) {
+            const auto found =
+                evaluate_in_all_lanes(functions, device, "remainder", {Words{32u - log2_size}, bits, more}).outputs[0];
+            std::size_t wrong = 0;
+            for (std::size_t i = 0; i < bits.size(); ++i) {
+                // The 64 bits of both, from the first one that the bucket did not take.
+                const std::uint64_t both = std::uint64_t{bits[i]} << 32 | more[i];
+                wrong += found[i] != static_cast<std::uint32_t>(both << log2_size >> 32);
+            }
+            CAPTURE(log2_size);
+            CHECK(wrong == 0);
+        }
 }

@@ -54,6 +54,8 @@ TEST_CASE("without options the scene stays as it is")
     CHECK(a.threads == 0);
     CHECK(a.overrides.empty());
     CHECK_FALSE(a.seconds);
+    CHECK_FALSE(a.error);
+    CHECK(a.confidence == 0.95);
     CHECK(a.verbosity() == Verbosity::normal);
     const Scene scene = scene_with(a);
     CHECK(scene.film.width == 30);
@@ -66,18 +68,53 @@ TEST_CASE("without options the scene stays as it is")
 
 TEST_CASE("every option is read")
 {
-    const RenderArguments a =
-        parse({"-o",     "a.png",        "room.json", "-o",           "b.exr",        "--device",
-               "cpu,0",  "--spp",        "77",        "--time",       "1.5",          "--seed",
-               "8",      "--size",       "64x48",     "-D",           "film.x=[1,2]", "-D",
-               "/a/b=c", "--crop",       "1,2,3,4",   "--integrator", "light",        "--accelerator",
-               "none",   "--specialize", "off",       "--report",     "r.json",       "--threads",
-               "2",      "--lanes",      "8",         "--lenient",    "--no-cache",   "--quiet"});
+    const RenderArguments a = parse({"-o",
+                                     "a.png",
+                                     "room.json",
+                                     "-o",
+                                     "b.exr",
+                                     "--device",
+                                     "cpu,0",
+                                     "--spp",
+                                     "77",
+                                     "--time",
+                                     "1.5",
+                                     "--seed",
+                                     "8",
+                                     "--size",
+                                     "64x48",
+                                     "-D",
+                                     "film.x=[1,2]",
+                                     "-D",
+                                     "/a/b=c",
+                                     "--crop",
+                                     "1,2,3,4",
+                                     "--integrator",
+                                     "light",
+                                     "--accelerator",
+                                     "none",
+                                     "--specialize",
+                                     "off",
+                                     "--report",
+                                     "r.json",
+                                     "--threads",
+                                     "2",
+                                     "--lanes",
+                                     "8",
+                                     "--lenient",
+                                     "--no-cache",
+                                     "--quiet",
+                                     "--error",
+                                     "0.02",
+                                     "--confidence",
+                                     "0.8"});
     CHECK(a.outputs == std::vector<std::string>{"a.png", "b.exr"});
     CHECK(a.overrides == std::vector<std::string>{"film.x=[1,2]", "/a/b=c"});
     CHECK(a.device == "cpu,0");
     CHECK(a.samples == 77u);
     CHECK(a.seconds == 1.5);
+    CHECK(a.error == 0.02);
+    CHECK(a.confidence == 0.8);
     CHECK(a.seed == 8u);
     CHECK(a.specialize == "off");
     CHECK(a.report == "r.json");
@@ -121,6 +158,11 @@ TEST_CASE("numbers are decimal and within their range, and a refusal says so")
     for (const std::string seconds : {"0", "-1", "nan", "inf", "soon"})
         CHECK(refusal({"room.json", "--time=" + seconds}) ==
               "--time: must be more than 0 seconds, is \"" + seconds + "\".");
+    for (const std::string error : {"0", "-1", "nan", "inf", "small"})
+        CHECK(refusal({"room.json", "--error=" + error}) == "--error: must be more than 0, is \"" + error + "\".");
+    for (const std::string confidence : {"0.4", "1", "nan", "sure"})
+        CHECK(refusal({"room.json", "--confidence=" + confidence}) ==
+              "--confidence: must be between 0.5 and 0.9999, is \"" + confidence + "\".");
     for (const std::string lanes : {"3", "32", "-1"})
         CHECK_THAT(refusal({"room.json", "--lanes=" + lanes}), Contains("--lanes"));
 }

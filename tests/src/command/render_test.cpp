@@ -13,6 +13,7 @@
 #include <set>
 #include <sstream>
 #include <thread>
+#include <tuple>
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -41,7 +42,7 @@ Words small_render(const Words& words, const std::string& scene = SCENE)
     Words all{"render", scene};
     const auto has = [&](const std::string& option) { return std::count(words.begin(), words.end(), option) > 0; };
     if (!has("--size")) all.insert(all.end(), {"--size", "8x6"});
-    if (!has("--spp") && !has("--time")) all.insert(all.end(), {"--spp", "2"});
+    if (!has("--spp") && !has("--time") && !has("--error")) all.insert(all.end(), {"--spp", "2"});
     all.insert(all.end(), words.begin(), words.end());
     return all;
 }
@@ -51,6 +52,13 @@ std::set<std::string> files_in(const std::filesystem::path& folder)
     std::set<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
     return names;
+}
+
+Json::Value report_in(const std::string& path)
+{
+    Json::Value report;
+    std::istringstream(read_file(path)) >> report;
+    return report;
 }
 
 // A folder and names of files in it.
@@ -169,8 +177,7 @@ TEST_CASE("render writes every picture it is asked for, and a report", "[render]
         CHECK_FALSE(metadata["etendue:device"].empty());
         CHECK_THAT(metadata["etendue:seconds"], Contains("parse ") && Contains("render "));
     }
-    Json::Value report;
-    std::istringstream(read_file(folder / "r.json")) >> report;
+    const Json::Value report = report_in(folder / "r.json");
     CHECK(report["samples_per_pixel"] == 2);
     CHECK(report["rays"]["camera"] == 2 * 8 * 6);
     CHECK_THAT(report["command"].asString(), StartsWith("etendue render " + SCENE) && Contains(" --seed 5"));
@@ -213,9 +220,7 @@ TEST_CASE("the general kernel, other lanes and -D are chosen on the command line
     const auto render_to = [&](const std::string& name, Words words) {
         words.insert(words.end(), {"-o", folder / name, "--report", folder / (name + ".json")});
         REQUIRE(run_child(ETENDUE, small_render(words)).exit_code == 0);
-        Json::Value report;
-        std::istringstream(read_file(folder / (name + ".json"))) >> report;
-        return report;
+        return report_in(folder / (name + ".json"));
     };
     render_to("default.exr", {});
     const Json::Value general = render_to("general.exr", {"--specialize", "off"});
@@ -259,6 +264,10 @@ TEST_CASE("mistakes on the command line exit with 1", "[render][command]")
     check_usage({"--bogus"}, "--bogus");
     check_usage({"--spp", "0"}, "--spp: must be a whole number between 1 and");
     check_usage({"--time", "-1"}, "--time: must be more than 0 seconds");
+    check_usage({"--error", "0"}, "--error: must be more than 0");
+    check_usage({"--error", "0.1"}, "48 pixels do not tell how well their error is known");
+    check_usage({"--error", "0.1", "-D", R"(sampler={"type":"sobol","replicates":1})"}, "-D sampler.replicates=2");
+    check_usage({"--error", "0.1", "--integrator", "normals"}, "--error needs another integrator");
     check_usage({"--lanes", "3"}, "--lanes");
     check_usage({"--size", "8"}, "--size must be WxH");
     check_usage({"--crop", "0,0,0,5"}, "does not lie within the film of 8x6 pixels, or is empty");
@@ -328,6 +337,42 @@ TEST_CASE("a time limit ends a render without an error", "[render][command]")
     CHECK_THAT(normals.errors, Contains("relative error unknown"));
 }
 
+TEST_CASE("a wanted error ends a render, and the report says how it was judged", "[render][command]")
+{
+    const Folder folder;
+    for (const auto& [sampler, estimate, least] :
+         {std::tuple("independent", "samples", 128), std::tuple("stratified", "blocks", 320),
+          std::tuple("sobol", "halves", 384)}) {
+        INFO(sampler);
+        const ChildResult result =
+            run_child(ETENDUE, small_render({"--error", "0.2", "--confidence", "0.9", "--size", "12x10", "-D",
+                                             std::string("sampler.type=") + sampler, "-o", folder / "x.exr", "--report",
+                                             folder / "r.json"}));
+        CHECK(result.exit_code == 0);
+        CHECK_THAT(result.errors, Contains("error 0.2 reached after") && Contains(std::string("by ") + estimate));
+        const Json::Value report = report_in(folder / "r.json");
+        const Json::Value& target = report["error_target"];
+        CHECK(report["error_estimate"].asString() == estimate);
+        CHECK(target["reached"] == Json::Value(true));
+        CHECK(target["confidence"].asDouble() == 0.9);
+        CHECK(target["high"].asDouble() <= 0.2);
+        CHECK(target["relative_error"].asDouble() == Approx(report["relative_error"].asDouble()));
+        CHECK(target["looks"].asUInt64() >= 2);
+        CHECK(report["samples_per_pixel"].asUInt64() >= static_cast<std::uint64_t>(least));
+    }
+    // --spp and --time end it too.
+    const ChildResult limited =
+        run_child(ETENDUE, small_render({"--error", "0.0001", "--spp", "70", "--size", "12x10", "-o", folder / "x.exr",
+                                         "--report", folder / "r.json"}));
+    CHECK(limited.exit_code == 0);
+    CHECK_THAT(limited.errors, Contains("error 0.0001 not reached after 70 samples per pixel"));
+    CHECK(report_in(folder / "r.json")["error_target"]["reached"] == Json::Value(false));
+    const ChildResult timed = run_child(
+        ETENDUE, small_render({"--error", "0.0001", "--time", "0.5", "--size", "12x10", "-o", folder / "x.exr"}));
+    CHECK(timed.exit_code == 0);
+    CHECK_THAT(timed.errors, Contains("error 0.0001 not reached"));
+}
+
 TEST_CASE("an interrupt writes the samples there are, says so, and exits with 130", "[render][command]")
 {
     const Folder folder;
@@ -345,9 +390,7 @@ TEST_CASE("an interrupt writes the samples there are, says so, and exits with 13
     CHECK(image.metadata["etendue:interrupted"] == "yes");
     CHECK(read_image(folder / "y.png").metadata["etendue:interrupted"] == "yes");
     CHECK(image.at(4, 3, image.channel("samples.Y")) >= 1.0f);
-    Json::Value report;
-    std::istringstream(read_file(folder / "r.json")) >> report;
-    CHECK(report["interrupted"].asBool());
+    CHECK(report_in(folder / "r.json")["interrupted"].asBool());
 }
 
 TEST_CASE("a second interrupt ends a render at once", "[render][command]")
@@ -405,8 +448,8 @@ TEST_CASE("the version and the help are printed on request", "[render][command]"
     const ChildResult render_help = run_child(ETENDUE, {"render", "--help"});
     CHECK(render_help.exit_code == 0);
     CHECK_THAT(render_help.output, Contains("Examples:\n  etendue render scenes/course-box/simple.json"));
-    for (const char* option :
-         {"--output", "--device", "--spp", "--time", "--seed", "--size", "--crop", "-D,--define", "--integrator",
-          "--accelerator", "--specialize", "--report", "--threads", "--lanes", "--quiet", "-v,--verbose"})
+    for (const char* option : {"--output", "--device", "--spp", "--time", "--error", "--confidence", "--seed", "--size",
+                               "--crop", "-D,--define", "--integrator", "--accelerator", "--specialize", "--report",
+                               "--threads", "--lanes", "--quiet", "-v,--verbose"})
         CHECK_THAT(render_help.output, Contains(option));
 }

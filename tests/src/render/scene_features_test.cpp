@@ -60,7 +60,8 @@ TEST_CASE("every change of a scene brings its own features and no others")
     CHECK(with({R"(shapes=[{"type":"disk","radius":1,"material":"grey"}])"}) ==
           Names{"diffuse", "disk", "pinhole", "independent", "none"});
     CHECK(with({"accelerator=lbvh"}) == Names{"diffuse", "pinhole", "independent", "lbvh"});
-    CHECK(with({"integrator.type=hemisphere"}) == Names{"diffuse", "pinhole", "independent", "none", "uniform_hemisphere"});
+    CHECK(with({"integrator.type=hemisphere"}) ==
+          Names{"diffuse", "pinhole", "independent", "none", "uniform_hemisphere"});
     CHECK(with({"integrator.roulette=throughput"}) == Names{"diffuse", "pinhole", "independent", "none", "roulette"});
     CHECK(with({R"(integrator.roulette={"type":"constant","probability":0.5})"}) ==
           Names{"diffuse", "pinhole", "independent", "none", "roulette"});
@@ -78,7 +79,8 @@ TEST_CASE("every change of a scene brings its own features and no others")
     CHECK(with({light}) == Names{"diffuse", "pinhole", "independent", "none", "area", "emission_sampling"});
     CHECK(with({light, "integrator.type=path"}) ==
           Names{"diffuse", "pinhole", "independent", "none", "area", "emission_sampling", "light_sampling"});
-    CHECK(with({light, "integrator.type=light"}) == Names{"diffuse", "pinhole", "independent", "none", "area", "light_sampling"});
+    CHECK(with({light, "integrator.type=light"}) ==
+          Names{"diffuse", "pinhole", "independent", "none", "area", "light_sampling"});
     // Without a light there is nothing to sample.
     CHECK(with({"integrator.type=path"}) == Names{"diffuse", "pinhole", "independent", "none"});
     CHECK(names_of(specialization_of({}, true)) == Names{"diffuse", "pinhole", "independent", "none", "aov"});
@@ -87,8 +89,9 @@ TEST_CASE("every change of a scene brings its own features and no others")
 TEST_CASE("numbers that a user may turn change no feature")
 {
     CHECK(specialization_of({}) ==
-          specialization_of({"film.size=[9,3]", R"(sampler={"type":"independent","spp":3,"seed":5})", "integrator.max_depth=9",
-                             "camera.vertical_fov=50", "materials.0.albedo=0.1", "integrator.roulette=off"}));
+          specialization_of({"film.size=[9,3]", R"(sampler={"type":"independent","spp":3,"seed":5})",
+                             "integrator.max_depth=9", "camera.vertical_fov=50", "materials.0.albedo=0.1",
+                             "integrator.roulette=off"}));
 }
 
 TEST_CASE("the film's kernels differ by the AOVs alone")
