@@ -2,7 +2,7 @@
 #pragma once
 
 #include "check/check_picture.h"
-#include "check/formula.h"
+#include "scene/formula.h"
 #include "scene/scene.h"
 
 #include <optional>

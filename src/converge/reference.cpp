@@ -2,9 +2,9 @@
 #include "converge/reference.h"
 
 #include "image/image_io.h"
+#include "scene/formula.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -13,15 +13,6 @@ namespace etendue
 {
 namespace
 {
-std::optional<double> plain_number(const std::string& text)
-{
-    double value = 0.0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || stop != end) return {};
-    return value;
-}
-
 std::string attribute(const Image& image, const std::string& name)
 {
     const auto found = image.metadata.find(name);
@@ -71,21 +62,19 @@ Reference analytic_reference(const Vec3& radiance, int width, int height, const 
     return reference;
 }
 
-std::optional<Vec3> plain_expected_radiance(const Scene& scene, bool mean_too)
+std::optional<Vec3> expected_radiance(const Scene& scene, bool mean_too)
 {
     if (!scene.expectation) return {};
     for (const ExpectedFact& fact : scene.expectation->facts) {
         const bool is_mean = mean_too && fact.subject == ExpectedFact::Subject::mean;
-        if (fact.subject != ExpectedFact::Subject::pixels && !is_mean) continue;
-        if (fact.value.size() != 1 && fact.value.size() != 3) continue;
+        const bool is_every_pixel = fact.subject == ExpectedFact::Subject::pixels && !fact.other_value;
+        const bool is_value = fact.rule != ExpectedFact::Rule::bound && fact.rule != ExpectedFact::Rule::count;
+        if (!is_value || !(is_every_pixel || is_mean)) continue;
+        const Formulas formulas(scene.expectation->where);
         Vec3 radiance(0.0);
-        bool plain = true;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const auto value = plain_number(fact.value[fact.value.size() == 1 ? 0 : c]);
-            plain = plain && value;
-            radiance[static_cast<int>(c)] = value.value_or(0.0);
-        }
-        if (plain) return radiance;
+        for (std::size_t c = 0; c < 3; ++c)
+            radiance[static_cast<int>(c)] = formulas.evaluate(fact.value[fact.value.size() == 1 ? 0 : c]);
+        return radiance;
     }
     return {};
 }

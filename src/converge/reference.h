@@ -45,10 +45,9 @@ void set_floor(Reference& reference, double replicates = std::numeric_limits<dou
 // A picture of one radiance.
 Reference analytic_reference(const Vec3& radiance, int width, int height, const std::string& description);
 
-// The radiance that a scene's expectation names for every pixel (or, with `mean_too`, for their mean); plain numbers
-// only. Scenes with formulas need whoever can work them out.
-using ExpectedRadiance = std::function<std::optional<Vec3>(const Scene&, bool mean_too)>;
-std::optional<Vec3> plain_expected_radiance(const Scene& scene, bool mean_too);
+// The radiance that a scene's expectation names for every pixel (or, with `mean_too`, for their mean). Throws
+// SceneError for a formula that is none.
+std::optional<Vec3> expected_radiance(const Scene& scene, bool mean_too);
 
 // A picture file; its variance from the channels stderr.R/G/B. Throws FileError, and UsageError where its size is not
 // that of the film or its random numbers are those of the study: seeds [first_seed, first_seed + seeds).

@@ -118,7 +118,7 @@ private:
         }
         if (options.reference == "auto" || options.reference == "analytic") {
             const bool mean_too = options.reference == "analytic";
-            if (const auto radiance = options.expected_radiance(scene, mean_too))
+            if (const auto radiance = expected_radiance(scene, mean_too))
                 return analytic_reference(*radiance, size.width, size.height,
                                           fmt::format("analytic: the scene expects the radiance {:.9g}, {:.9g}, {:.9g}",
                                                       radiance->x, radiance->y, radiance->z));

@@ -29,7 +29,6 @@ struct StudyOptions {
     std::uint64_t first_seed = 1;
     std::string reference = "auto"; // auto, analytic, none or a file
     double reference_seconds = 120.0;
-    ExpectedRadiance expected_radiance = plain_expected_radiance;
     std::vector<Target> targets{{"relmse", 1e-1}, {"relmse", 1e-2}, {"relmse", 1e-3}};
     std::vector<std::string> metrics{"mse", "relmse"}; // in plots and tables; the first leads
     MetricSettings metric_settings;

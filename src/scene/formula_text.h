@@ -1,4 +1,4 @@
-// A formula as a scene file writes it; check/formula.h works it out.
+// A formula as a scene file writes it; scene/formula.h works it out.
 #pragma once
 
 #include "util/error.h"

@@ -39,17 +39,20 @@ PreparedConfiguration small_box(const std::vector<std::string>& overrides = {}, 
 TEST_CASE("what a scene expects of its pixels is a reference without error", "[converge]")
 {
     Scene scene;
-    CHECK_FALSE(plain_expected_radiance(scene, true));
+    CHECK_FALSE(expected_radiance(scene, true));
     scene.expectation.emplace();
     scene.expectation->facts = {fact(ExpectedFact::Subject::warning, {}), fact(ExpectedFact::Subject::mean, {"0.5"})};
     // The mean alone says nothing of a pixel, unless somebody says that it does.
-    CHECK_FALSE(plain_expected_radiance(scene, false));
-    CHECK(plain_expected_radiance(scene, true) == Vec3(0.5));
+    CHECK_FALSE(expected_radiance(scene, false));
+    CHECK(expected_radiance(scene, true) == Vec3(0.5));
     scene.expectation->facts.push_back(fact(ExpectedFact::Subject::pixels, {"1", "2.5", "3e-1"}));
-    CHECK(plain_expected_radiance(scene, false) == Vec3(1, 2.5, 0.3));
-    // Formulas are for those who can work them out.
-    scene.expectation->facts = {fact(ExpectedFact::Subject::pixels, {"1/(1-a)"})};
-    CHECK_FALSE(plain_expected_radiance(scene, false));
+    CHECK(expected_radiance(scene, false) == Vec3(1, 2.5, 0.3));
+    scene.expectation->where = {{"a", {"1 / 2", {}}}};
+    scene.expectation->facts = {fact(ExpectedFact::Subject::pixels, {"1 / (1 - a)"})};
+    CHECK(expected_radiance(scene, false) == Vec3(2.0));
+    // A bound, or one of two values, is not the radiance of a pixel.
+    scene.expectation->facts.front().other_value = FormulaText{"1", {}};
+    CHECK_FALSE(expected_radiance(scene, false));
 
     const Reference reference = analytic_reference(Vec3(1, 2, 3), 3, 2, "known");
     CHECK(reference.mean == Pixels(6, Vec3(1, 2, 3)));

@@ -1,4 +1,4 @@
-#include "check/formula.h"
+#include "scene/formula.h"
 
 #include "util/error.h"
 

@@ -1,5 +1,5 @@
 // Formulas by muParser.
-#include "check/formula.h"
+#include "scene/formula.h"
 
 #include "util/suggestion.h"
 
