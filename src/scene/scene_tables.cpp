@@ -217,7 +217,7 @@ const Table& sampler_table()
                              {{"spp", Kind::integer, {1, 1e15}, "64", "samples per pixel"},
                               {"seed", Kind::integer, SEED, "0", "another seed gives other noise"}},
                              sampler_variants(),
-                             "independent",
+                             "sobol",
                              true};
     return table;
 }

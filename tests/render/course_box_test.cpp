@@ -24,6 +24,7 @@ Scene course_box(IntegratorType integrator, int size, std::uint64_t samples_per_
     scene.integrator.type = integrator;
     scene.integrator.max_depth.reset();
     scene.film.width = scene.film.height = size;
+    scene.sampler.type = SamplerType::independent; // tests of means use the variance of a pixel's samples
     scene.sampler.samples_per_pixel = samples_per_pixel;
     return scene;
 }

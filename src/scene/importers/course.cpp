@@ -242,6 +242,7 @@ Scene parse_course_scene(const json::Value& root, const std::string& folder, std
     scene.film.tone_map = ToneMap::gamma22;
     scene.film.location = scene.integrator.location = scene.sampler.location = root.location();
     scene.integrator.max_depth = static_cast<std::uint32_t>(file.integer("max_depth"));
+    scene.sampler.type = SamplerType::sobol; // the default of the native format too
     scene.sampler.samples_per_pixel = file.integer("spp");
 
     for (const json::Value& value : file.objects("materials"))

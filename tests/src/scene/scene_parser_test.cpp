@@ -33,7 +33,9 @@ TEST_CASE("what a file leaves out is what scene.h says", "[host]")
     CHECK(scene.integrator.roulette == integrator.roulette);
     CHECK(scene.integrator.roulette_probability == integrator.roulette_probability);
     CHECK(scene.integrator.roulette_start == integrator.roulette_start);
+    // But for the sampler: Scene's own one has samples whose variance is known, a file's has less noise.
     const SamplerDescription sampler;
+    CHECK(scene.sampler.type == SamplerType::sobol);
     CHECK(scene.sampler.samples_per_pixel == sampler.samples_per_pixel);
     CHECK(scene.sampler.seed == sampler.seed);
     CHECK(scene.sampler.replicates == sampler.replicates);
@@ -77,6 +79,19 @@ TEST_CASE("every key of camera, film, integrator, sampler, accelerator and envir
     CHECK(scene.accelerator.type == ACCELERATOR_LBVH);
     CHECK(scene.accelerator.build == BuildPlace::host);
     CHECK(scene.environment->radiance == Vec3(1, 2, 3));
+}
+
+TEST_CASE("a Sobol sampler has one or two replicates", "[host]")
+{
+    const auto sampler = [](const std::string& text) {
+        return parse(R"({"environment": {"radiance": 1}, "sampler": )" + text + "}").sampler;
+    };
+    CHECK(sampler(R"("sobol")").type == SamplerType::sobol);
+    CHECK(sampler(R"("sobol")").replicates == 2);
+    CHECK(sampler(R"({"type": "sobol", "replicates": 1})").replicates == 1);
+    CHECK(sampler(R"("independent")").type == SamplerType::independent);
+    CHECK_THROWS_WITH(sampler(R"({"type": "sobol", "replicates": 3})"), Catch::Contains("between 1 and 2, is 3"));
+    CHECK_THROWS_WITH(sampler(R"({"type": "independent", "replicates": 1})"), Catch::Contains("replicates"));
 }
 
 TEST_CASE("names alone stand for filters, integrators, roulettes and accelerators", "[host]")

@@ -40,6 +40,8 @@ TEST_CASE("the course's scene is the same problem in both formats", "[host]")
     CHECK(scene.integrator.type == native.integrator.type);
     CHECK(scene.integrator.max_depth == native.integrator.max_depth);
     CHECK(scene.integrator.roulette == native.integrator.roulette);
+    CHECK(scene.sampler.type == native.sampler.type);
+    CHECK(scene.sampler.replicates == native.sampler.replicates);
     CHECK(scene.sampler.samples_per_pixel == native.sampler.samples_per_pixel);
     REQUIRE(scene.materials.size() == native.materials.size());
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
