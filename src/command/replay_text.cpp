@@ -1,6 +1,7 @@
 // Tables and JSON of replayed paths.
 #include "command/replay_text.h"
 
+#include "command/vertex_values.h"
 #include "render/render_report.h"
 #include "scene/material_parser.h"
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,75 +18,6 @@ namespace etendue
 namespace
 {
 using Vertex = fp64::PathVertex;
-
-Vec3 xyz(const fp64::real4& v)
-{
-    return Vec3(v.s[0], v.s[1], v.s[2]);
-}
-
-// What is told of a vertex: lengths in normalised coordinates, radiance since the vertex before.
-struct Quantity {
-    enum class Kind { place, length, direction, number, colour };
-    const char* name;
-    Kind kind;
-    Vec3 value; // numbers and lengths in x
-};
-
-std::vector<Quantity> quantities_of(const PathRecord& path, std::size_t i)
-{
-    using Kind = Quantity::Kind;
-    const Vertex& v = path.vertices[i];
-    const Vec3 before = i == 0 ? Vec3(0.0) : xyz(path.vertices[i - 1].radiance);
-    std::vector<Quantity> all;
-    if (v.primitive != NO_INDEX)
-        all = {{"distance", Kind::length, Vec3(v.geometric_normal.s[3])},
-               {"position", Kind::place, xyz(v.position)},
-               {"error bound", Kind::length, Vec3(v.position.s[3])},
-               {"geometric normal", Kind::direction, xyz(v.geometric_normal)},
-               {"shading normal", Kind::direction, xyz(v.shading_normal)}};
-    all.push_back({"emission met", Kind::colour, xyz(v.emission) - before});
-    if (v.primitive != NO_INDEX) {
-        all.insert(all.end(), {{"light sampled", Kind::colour, xyz(v.radiance) - xyz(v.emission)},
-                               {"next direction", Kind::direction, xyz(v.direction)},
-                               {"its pdf", Kind::number, Vec3(v.shading_normal.s[3])},
-                               {"throughput", Kind::colour, xyz(v.throughput)}});
-    }
-    all.push_back({"radiance", Kind::colour, xyz(v.radiance)});
-    return all;
-}
-
-// 0 for what is equal, infinite values and NaN included.
-double difference(const Quantity& a, const Quantity& b)
-{
-    const bool same = std::equal(&a.value.x, &a.value.x + 3, &b.value.x,
-                                 [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
-    if (same) return 0.0;
-    const double distance = glm::length(a.value - b.value);
-    const bool relative = a.kind == Quantity::Kind::number || a.kind == Quantity::Kind::colour;
-    const double d = relative ? distance / std::max(glm::length(a.value), glm::length(b.value)) : distance;
-    return std::isnan(d) ? std::numeric_limits<double>::infinity() : d;
-}
-
-// Error bounds differ by the precision's nature, and what a vertex adds is a difference of sums that cancels: the sums
-// themselves are compared.
-bool is_compared(const Quantity& q)
-{
-    const std::string name = q.name;
-    return name != "error bound" && name != "emission met" && name != "light sampled";
-}
-
-// In the scene's own units.
-Vec3 in_world(const Quantity& q, const Normalisation& normalisation)
-{
-    if (q.kind == Quantity::Kind::place) return q.value / normalisation.scale + normalisation.centre;
-    if (q.kind == Quantity::Kind::length) return q.value / normalisation.scale;
-    return q.value;
-}
-
-bool is_single_number(const Quantity& q)
-{
-    return q.kind == Quantity::Kind::number || q.kind == Quantity::Kind::length;
-}
 
 std::string number_text(double x, Precision precision)
 {
@@ -239,25 +170,6 @@ Json::Value path_json(const ReplayedPath& path, const PathRecord& record)
     return json;
 }
 } // namespace
-
-PathDifference compare_paths(const PathRecord& a, const PathRecord& b)
-{
-    PathDifference result;
-    const std::size_t common = std::min(a.vertices.size(), b.vertices.size());
-    std::size_t i = 0;
-    for (; i < common && a.vertices[i].primitive == b.vertices[i].primitive; ++i) {
-        const auto qa = quantities_of(a, i), qb = quantities_of(b, i);
-        for (std::size_t q = 0; q < qa.size(); ++q) {
-            const double d = is_compared(qa[q]) ? difference(qa[q], qb[q]) : 0.0;
-            if (d <= result.largest) continue;
-            result.largest = d;
-            result.vertex = static_cast<std::uint32_t>(i);
-            result.quantity = qa[q].name;
-        }
-    }
-    if (i < common || a.vertices.size() != b.vertices.size()) result.parts_at = static_cast<std::uint32_t>(i);
-    return result;
-}
 
 std::string replay_text(const ReplayedPath& path)
 {
