@@ -71,6 +71,7 @@ private:
             if (options.stop()) return;
             studied.cold = measure_cold_start(studied.prepared);
         }
+        progress_.forget_speed();
         // A,B,A,B: what the machine does meanwhile meets every configuration alike.
         for (std::uint64_t s = 0; s < options.seeds; ++s)
             for (StudiedConfiguration& studied : study_.configurations) {
