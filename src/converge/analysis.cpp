@@ -144,7 +144,10 @@ BiasEvidence evidence_of(const StudiedConfiguration& studied, const Configuratio
     for (const CurvePoint& point : analysis.curve)
         evidence.largest_mse = std::max(evidence.largest_mse, point.mse.estimate);
     for (const Run& run : studied.runs) {
-        if (run.measurement.complete) evidence.picture_means.push_back(run.picture_mean);
+        if (run.measurement.complete) {
+            evidence.picture_means.push_back(run.picture_mean);
+            evidence.picture_variances.push_back(run.picture_variance);
+        }
         evidence.accidents += run.rows.back().accidents;
         const BadValues& bad = run.rows.back().bad;
         evidence.bad_values += bad.nan + bad.infinite + bad.negative;

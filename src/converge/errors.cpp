@@ -6,16 +6,10 @@
 
 namespace etendue
 {
-namespace
+Vec3 variance_of_picture_mean(const Pixels& variance)
 {
-// The variance of the mean of all pixels, the channels' mean.
-double variance_of_picture_mean(const Pixels& variance)
-{
-    const double pixels = static_cast<double>(variance.size());
-    const Vec3 sum = mean_of(variance);
-    return (sum.x + sum.y + sum.z) / 3.0 / pixels;
+    return mean_of(variance) / static_cast<double>(variance.size());
 }
-} // namespace
 
 RelativeScale::RelativeScale(const Pixels& reference, const MetricSettings& settings)
 {
@@ -43,7 +37,8 @@ ErrorRow bare_row(const Snapshot& snapshot)
     row.kernel_seconds = snapshot.kernel_seconds;
     row.rays = snapshot.rays;
     row.film_error = snapshot.relative_error;
-    row.var_mean = variance_of_picture_mean(snapshot.pixels.variance);
+    const Vec3 of_mean = variance_of_picture_mean(snapshot.pixels.variance);
+    row.var_mean = (of_mean.x + of_mean.y + of_mean.z) / 3.0;
     row.bad = count_bad_values(snapshot.pixels.mean);
     row.accidents = snapshot.accidents;
     return row;

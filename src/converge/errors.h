@@ -26,7 +26,8 @@ struct ErrorRow {
 struct Run {
     std::uint64_t seed = 0;
     std::vector<ErrorRow> rows;
-    Vec3 picture_mean{0.0}; // at the last row
+    Vec3 picture_mean{0.0};     // at the last row
+    Vec3 picture_variance{0.0}; // of that mean, as the film estimates it
     Measurement measurement;
 };
 
@@ -39,6 +40,9 @@ struct RelativeScale {
 
 // Mean over pixels and channels of the reference's variance over its relative scale.
 double relative_floor(const Reference& reference, const MetricSettings& settings);
+
+// The variance of the mean of all pixels, from those of independent pixels.
+Vec3 variance_of_picture_mean(const Pixels& variance);
 
 // The row of a snapshot; `relative` is relative_floor(reference).
 ErrorRow error_row(const Snapshot& snapshot, const Reference& reference, double relative,

@@ -26,7 +26,7 @@ std::string interval_text(const Interval& interval)
 
 std::string percent_text(double share)
 {
-    return std::isfinite(share) ? fmt::format("{:.2g} %", 100 * share) : UNKNOWN_TEXT;
+    return std::isfinite(share) ? fmt::format("{:.3g} %", 100 * share) : UNKNOWN_TEXT;
 }
 
 std::string seconds_text(double seconds)

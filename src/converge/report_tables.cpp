@@ -52,9 +52,9 @@ std::string ratio_table(const Analysis& analysis)
             row.emplace_back(i == j ? "1" : ratio_cell(analysis.ratios[i][j]));
         rows.push_back(row);
     }
-    return html_table("How many times better the row is, by 1 / (MSE × seconds of rendering), with 95 % intervals by "
-                      "bootstrap over the seeds. Where slopes differ, by the time to a target.",
-                      head, rows);
+    return html_paragraph("By 1 / (MSE × seconds of rendering) at the last usable checkpoint, with 95 % intervals by "
+                          "bootstrap over the seeds. Where slopes differ, by the time to a target.") +
+           html_table("How many times better the row is", head, rows);
 }
 
 std::string target_table(const Analysis& analysis)
@@ -75,10 +75,11 @@ std::string fit_table(const Analysis& analysis)
         rows.push_back({c.name, interval_text(c.slope_samples), interval_text(c.slope_seconds),
                         interval_text(c.exponent), interval_text(c.floor), interval_text(c.efficiency),
                         percent_text(c.top_share), short_text(c.variance_of_mean / c.variance_of_mean_by_film)});
-    return html_table("Slopes of log₂ MSE, each seed by itself: −1 on samples where they are independent; seconds hold "
-                      "the overhead of short launches too. p and b: MSE = a N⁻ᵖ + b. Efficiency: 1 / (MSE × seconds). "
-                      "95 % intervals. Fireflies: share of the MSE in the worst 0.1 % of the pixels. Spread of the "
-                      "mean: its variance between seeds over the films' estimate, 1 where pixels are independent.",
+    return html_paragraph("Slopes of log₂ MSE, each seed by itself: −1 on samples where they are independent; seconds "
+                          "hold the overhead of short launches too. p and b: MSE = a N⁻ᵖ + b. Efficiency: 1 / (MSE × "
+                          "seconds). Fireflies: share of the MSE in the worst 0.1 % of the pixels. Spread of the mean: "
+                          "its variance between seeds over the films' estimate, 1 where pixels are independent.") +
+           html_table("95 % intervals over the seeds",
                       {"configuration", "slope on samples", "slope on seconds", "p", "b", "efficiency", "fireflies",
                        "spread of the mean"},
                       rows);
@@ -94,14 +95,15 @@ std::string verdict_table(const Analysis& analysis)
                         short_text(v.worst_tile_z), judged(fmt::format("{:+.2g} %", 100 * v.mean_error), v.mean_passed),
                         short_text(v.z), short_text(v.critical), percent_text(v.detectable_bias)});
     }
-    return html_table(
-        fmt::format("Each test is at the level {:.2g}, the interval of b too, so that all together are wrong once in a "
-                    "thousand studies. Tiles: whether Welch's p-values have too many small ones, and whether they are "
-                    "uniform at all. z: of the picture's mean, the worst channel.",
-                    analysis.test_alpha),
-        {"configuration", "floor b", "tiles, p", "uniform, p", "worst tile z", "mean", "z", "allowed",
-         "detectable bias"},
-        rows);
+    return html_paragraph(
+               fmt::format("Each test is at the level {:.2g}, the interval of b too, so that all together are wrong "
+                           "once in a thousand studies. Tiles: whether Welch's p-values have too many small ones, and "
+                           "whether they are uniform at all. z: of the picture's mean, the worst channel.",
+                           analysis.test_alpha)) +
+           html_table("Three parts, all of which must pass",
+                      {"configuration", "floor b", "tiles, p", "uniform, p", "worst tile z", "mean", "z", "allowed",
+                       "detectable bias"},
+                      rows);
 }
 
 std::string calibration_table(const Analysis& analysis)
@@ -112,9 +114,10 @@ std::string calibration_table(const Analysis& analysis)
             rows.push_back({configuration.name, samples > 0.0 ? fmt::format("{:g}", samples) : "all",
                             std::to_string(c.count), short_text(c.median), short_text(c.low), short_text(c.high),
                             percent_text(c.too_confident)});
-    return html_table(
-        "The relative error that the film estimates without a reference, over the one that there is: 1 is "
-        "right, and below 1 a render that stops at an error stops too early.",
-        {"configuration", "samples", "estimates", "median", "5 %", "95 %", "more than 10 % too small"}, rows);
+    return html_paragraph("The relative error that the film estimates without a reference, over the one that there is: "
+                          "1 is right, and below 1 a render that stops at an error stops too early.") +
+           html_table("Estimated over true relative error",
+                      {"configuration", "samples", "estimates", "median", "5 %", "95 %", "more than 10 % too small"},
+                      rows);
 }
 } // namespace etendue

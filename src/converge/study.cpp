@@ -71,6 +71,7 @@ private:
             if (options.stop()) return;
             studied.cold = measure_cold_start(studied.prepared);
         }
+        progress_.forget_speed();
         // A,B,A,B: what the machine does meanwhile meets every configuration alike.
         for (std::uint64_t s = 0; s < options.seeds; ++s)
             for (StudiedConfiguration& studied : study_.configurations) {
@@ -157,7 +158,7 @@ private:
         Run run;
         run.seed = options.first_seed + number;
         std::vector<Pixels> pictures;
-        Pixels last;
+        FilmPixels last;
         MeasurementOptions measurement;
         measurement.checkpoints = options.checkpoints;
         measurement.seed = run.seed;
@@ -166,8 +167,8 @@ private:
         measurement.look = [&](const Snapshot& snapshot) {
             run.rows.push_back(is_blind ? bare_row(snapshot)
                                         : error_row(snapshot, reference, relative, options.metric_settings));
-            last = snapshot.pixels.mean;
-            if (is_blind) pictures.push_back(last);
+            last = snapshot.pixels;
+            if (is_blind) pictures.push_back(last.mean);
         };
         progress_.begin(fmt::format("run {} of {}: {}, seed {}", ++runs_begun_,
                                     options.seeds * study_.configurations.size(), studied.prepared.configuration.name,
@@ -176,8 +177,9 @@ private:
         run.measurement = measure(studied.prepared, measurement);
         progress_.end();
         if (run.rows.empty()) return;
-        run.picture_mean = mean_of(last);
-        if (run.measurement.complete) studied.pool.add(last);
+        run.picture_mean = mean_of(last.mean);
+        run.picture_variance = variance_of_picture_mean(last.variance);
+        if (run.measurement.complete) studied.pool.add(last.mean);
         pictures_[&studied].push_back(std::move(pictures));
         studied.runs.push_back(std::move(run));
     }

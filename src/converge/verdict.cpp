@@ -18,6 +18,8 @@ constexpr double ROUNDING = 0x1p-24;
 constexpr double ROUNDINGS = 16.0;
 // A test that sees a bias with this certainty counts as able to see it.
 constexpr double POWER = 0.99;
+// Student's distribution is the normal one.
+constexpr double MANY_DEGREES = 1e6;
 
 double mean_of_channels(const Vec3& v)
 {
@@ -74,30 +76,46 @@ void judge_tiles(BiasVerdict& verdict, const BiasEvidence& evidence, double alph
                                               verdict.tile, verdict.tile_p_value, verdict.worst_tile_z));
 }
 
+// The variance of the mean of all seeds' pictures, and its degrees of freedom.
+struct MeanVariance {
+    double variance = 0.0, degrees = 0.0;
+};
+
+MeanVariance variance_of_mean(const BiasEvidence& evidence, int channel)
+{
+    RunningStatistics means;
+    double by_film = 0.0;
+    for (const Vec3& mean : evidence.picture_means) means.add(mean[channel]);
+    for (const Vec3& variance : evidence.picture_variances) by_film += variance[channel];
+    const double seeds = static_cast<double>(means.count());
+    // Independent samples of every pixel know far more than a few seeds do; other samples know only by seeds.
+    if (evidence.independent_samples && std::isfinite(by_film)) return {by_film / (seeds * seeds), MANY_DEGREES};
+    return {means.variance() / seeds, seeds - 1};
+}
+
 // One channel: the means of the seeds against the reference's.
 void judge_channel(BiasVerdict& verdict, const BiasEvidence& evidence, int channel, const VerdictLevels& levels)
 {
     const Reference& reference = *evidence.reference;
-    RunningStatistics means;
-    for (const Vec3& mean : evidence.picture_means) means.add(mean[channel]);
+    std::vector<double> means;
+    for (const Vec3& mean : evidence.picture_means) means.push_back(mean[channel]);
     const double expected = mean_of(reference.mean)[channel];
-    const double seeds = static_cast<double>(means.count());
-    const double of_seeds = means.variance() / seeds;
+    const MeanVariance of_seeds = variance_of_mean(evidence, channel);
     const double of_reference = mean_of(reference.variance)[channel] / static_cast<double>(reference.variance.size());
-    const double variance = of_seeds + of_reference + rounding_variance(expected);
+    const double variance = of_seeds.variance + of_reference + rounding_variance(expected);
     if (variance == 0.0) return; // a channel that is black in every picture
     // Welch and Satterthwaite; of the reference's variance so many pixels know enough.
-    const double degrees =
-        of_seeds > 0.0 ? std::min((seeds - 1) * variance * variance / (of_seeds * of_seeds), 1e9) : 1e9;
+    const double part = of_seeds.variance / variance;
+    const double degrees = part > 0.0 ? std::min(of_seeds.degrees / (part * part), MANY_DEGREES) : MANY_DEGREES;
     const double error = std::sqrt(variance);
-    const double z = (means.mean() - expected) / error;
+    const double z = (mean_of(means) - expected) / error;
     const double critical = student_t_quantile(1.0 - levels.test_alpha / 2, degrees);
     const double detectable = (critical + student_t_quantile(POWER, degrees)) * error / std::abs(expected);
     verdict.mean_passed = verdict.mean_passed && std::abs(z) < critical;
     if (!std::isfinite(verdict.z) || std::abs(z) / critical > std::abs(verdict.z) / verdict.critical) {
         verdict.z = z;
         verdict.critical = critical;
-        verdict.mean_error = (means.mean() - expected) / std::abs(expected);
+        verdict.mean_error = (mean_of(means) - expected) / std::abs(expected);
     }
     if (!(verdict.detectable_bias >= detectable)) verdict.detectable_bias = detectable;
 }
@@ -128,17 +146,36 @@ bool has_failed(BiasVerdict& verdict, const BiasEvidence& evidence)
     if (evidence.bad_values > 0)
         verdict.reasons.push_back(
             fmt::format("{} values of the pictures are not finite or negative.", evidence.bad_values));
-    if (!verdict.exact && slope_is_wrong(evidence))
-        verdict.reasons.push_back(fmt::format("The errors of independent samples must fall with slope -1 within {}, "
-                                              "and fall with {:.3f}, between {:.3f} and {:.3f}.",
-                                              SLOPE_TOLERANCE, evidence.slope.estimate, evidence.slope.low,
-                                              evidence.slope.high));
     return !verdict.reasons.empty();
 }
 
 bool is_exact(const BiasEvidence& evidence)
 {
     return evidence.largest_mse <= rounding_variance(mean_of_channels(mean_of(evidence.reference->mean)));
+}
+
+// The three parts; whether one of them sees a bias.
+bool sees_bias(BiasVerdict& verdict, const BiasEvidence& evidence, const VerdictLevels& levels)
+{
+    if (verdict.exact)
+        verdict.floor_passed = true;
+    else
+        judge_floor(verdict, evidence);
+    judge_tiles(verdict, evidence, levels.test_alpha);
+    judge_mean(verdict, evidence, levels);
+    const bool has_floor = !verdict.exact && evidence.floor.known() && !evidence.floor.contains(0.0);
+    return has_floor || !verdict.tiles_passed || !verdict.mean_passed;
+}
+
+// Whether the errors fall at an impossible rate. A floor bends the slope too.
+bool judge_slope(BiasVerdict& verdict, const BiasEvidence& evidence)
+{
+    if (verdict.exact || !slope_is_wrong(evidence)) return false;
+    verdict.reasons.push_back(fmt::format("The errors of independent samples must fall with slope -1 within {}, and "
+                                          "fall with {:.3f}, between {:.3f} and {:.3f}.",
+                                          SLOPE_TOLERANCE, evidence.slope.estimate, evidence.slope.low,
+                                          evidence.slope.high));
+    return true;
 }
 } // namespace
 
@@ -186,27 +223,21 @@ BiasVerdict judge_bias(const BiasEvidence& evidence, const VerdictLevels& levels
     else if (verdict.exact)
         verdict.reasons.emplace_back("Every picture is the reference but for rounding.");
 
-    bool seen = false;
-    if (!is_blind && has_pictures && evidence.bad_values == 0) {
-        if (!verdict.exact) judge_floor(verdict, evidence);
-        verdict.floor_passed = verdict.floor_passed || verdict.exact;
-        judge_tiles(verdict, evidence, levels.test_alpha);
-        judge_mean(verdict, evidence, levels);
-        const bool floor_seen = evidence.floor.known() && !evidence.floor.contains(0.0) && !verdict.exact;
-        seen = floor_seen || !verdict.tiles_passed || !verdict.mean_passed;
-    }
-    const bool powerful = verdict.floor_passed && verdict.detectable_bias <= levels.delta;
-    if (failed)
+    const bool can_see = !is_blind && has_pictures && evidence.bad_values == 0;
+    const bool seen = can_see && sees_bias(verdict, evidence, levels);
+    const bool wrong_slope = judge_slope(verdict, evidence);
+    const bool weak_mean = verdict.detectable_bias > levels.delta;
+    if (failed || (wrong_slope && !seen))
         verdict.result = BiasResult::failed;
-    else if (is_blind)
-        verdict.result = BiasResult::unknown;
     else if (seen)
         verdict.result = BiasResult::biased;
-    else if (!has_pictures || !powerful)
+    else if (is_blind)
+        verdict.result = BiasResult::unknown;
+    else if (!has_pictures || !verdict.floor_passed || weak_mean)
         verdict.result = BiasResult::underpowered;
     else
         verdict.result = BiasResult::unbiased;
-    if (verdict.result == BiasResult::underpowered && verdict.detectable_bias > levels.delta)
+    if (verdict.result == BiasResult::underpowered && weak_mean)
         verdict.reasons.push_back(fmt::format("A bias of {:.2g} % could hide, and {:.2g} % must not: take more samples "
                                               "or seeds.",
                                               100 * verdict.detectable_bias, 100 * levels.delta));

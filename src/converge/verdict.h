@@ -49,12 +49,13 @@ struct BiasVerdict {
 struct BiasEvidence {
     const Reference* reference = nullptr;
     int width = 0, height = 0;
-    const PixelPool* pool = nullptr; // the last pictures of all seeds
-    std::vector<Vec3> picture_means; // of the same pictures
-    double largest_mse = 0.0;        // of any checkpoint
-    Interval floor;                  // b at the verdict's level
-    Interval slope;                  // on samples, 95 %
-    bool independent_samples = true; // whose errors must fall with slope -1
+    const PixelPool* pool = nullptr;     // the last pictures of all seeds
+    std::vector<Vec3> picture_means;     // of the same pictures
+    std::vector<Vec3> picture_variances; // of these means, as the films estimate them
+    double largest_mse = 0.0;            // of any checkpoint
+    Interval floor;                      // b at the verdict's level
+    Interval slope;                      // on samples, 95 %
+    bool independent_samples = true;     // whose errors must fall with slope -1
     std::uint64_t accidents = 0, bad_values = 0;
 };
 

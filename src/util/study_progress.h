@@ -24,20 +24,24 @@ public:
     void show(double fraction);
     // All of it is done.
     void end();
+    // What is done so far says nothing of how fast the rest will be.
+    void forget_speed();
     // Everything is done or given up; the line goes away.
     void finish();
 
 private:
     void write(double done);
+    double remaining(double done) const;
 
     Log& log_;
     Clock clock_;
     double start_, next_ = 0.0;
     double total_, done_ = 0.0, part_ = 0.0;
+    double speed_start_, speed_done_ = 0.0; // from where on the speed counts
     std::string what_;
 };
 
-// "[====>     ]  45%  run 3 of 16: path, seed 2  1:10, 1:26 left", at most `columns` wide. The remaining time is in
-// proportion to the work.
-std::string study_line(double fraction, const std::string& what, double elapsed_seconds, int columns);
+// "[====>     ]  45%  run 3 of 16: path, seed 2  1:10, 1:26 left", at most `columns` wide.
+std::string study_line(double fraction, const std::string& what, double elapsed_seconds, double remaining_seconds,
+                       int columns);
 } // namespace etendue

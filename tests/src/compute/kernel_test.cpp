@@ -25,6 +25,12 @@ kernel void reverse(local uint* scratch, global uint* values)
     barrier(CLK_LOCAL_MEM_FENCE);
     values[i] = scratch[n - 1u - i];
 }
+kernel void spin(uint turns, global uint* out)
+{
+    uint x = 1u;
+    for (uint i = 0u; i < turns; ++i) x = x * 1664525u + 1013904223u;
+    out[0] = x;
+}
 kernel void count_items(volatile global uint* out) { atomic_inc(out); }
 )";
 } // namespace
@@ -86,6 +92,23 @@ TEST_CASE("launches are counted by device and kernel")
     kernel.launch(0, 1, out);
     device.finish();
     CHECK(launches()[device.info().name]["count_items"] == before + 2);
+}
+
+TEST_CASE("the device's own clock tells how long the last launch took")
+{
+    for (Device& device : test_devices()) {
+        const Program program = Program::from_text(device, "kernels", source, "");
+        const Buffer<std::uint32_t> out(device, "out", 1);
+        Kernel kernel(program, "spin");
+        CHECK(kernel.last_launch_seconds() == 0.0);
+        kernel.run(1, 1, std::uint32_t{1}, out); // compiles, perhaps
+        const double seconds = kernel.run(1, 1, std::uint32_t{100'000'000}, out);
+        const double by_device = kernel.last_launch_seconds();
+        CHECK(by_device > 0.001);
+        CHECK(by_device <= seconds);
+        kernel.run(1, 1, std::uint32_t{1}, out);
+        CHECK(kernel.last_launch_seconds() < by_device);
+    }
 }
 
 TEST_CASE("what a kernel refuses is reported with device, kernel and the name of the error")

@@ -215,3 +215,17 @@ TEST_CASE("the standard cache is where the environment says")
     CHECK(KernelCache::standard().folder() == folder.path() / "kernels");
     set_environment("ETENDUE_CACHE_DIR", before);
 }
+
+TEST_CASE("a cold build is unlike every build before it and leaves nothing")
+{
+    Device& device = test_devices().front();
+    const KernelCache first = KernelCache::cold(), second = KernelCache::cold();
+    CHECK_FALSE(first.enabled());
+    CHECK(first.option() != second.option());
+    CHECK(KernelCache::none().option().empty());
+    Program program(device, "film.cl", "-DHAS_AOV=0 -DLANES=1 -DSTACK_SIZE=32", first);
+    CHECK_THAT(program.report().options, Contains(first.option()));
+    CHECK_FALSE(program.report().from_cache);
+    program.store_in_cache();
+    CHECK_FALSE(program.report().stored);
+}

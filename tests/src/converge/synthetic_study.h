@@ -98,6 +98,7 @@ private:
             run.rows.push_back(error_row(snapshot, *studied.reference, relative, {}));
             if (k + 1 < options_.checkpoints) continue;
             run.picture_mean = mean_of(snapshot.pixels.mean);
+            run.picture_variance = variance_of_picture_mean(snapshot.pixels.variance);
             studied.pool.add(snapshot.pixels.mean);
         }
         run.measurement.complete = true;

@@ -53,7 +53,7 @@ TEST_CASE("a planted bias is found by all three parts", "[converge]")
     CHECK_FALSE(verdict.tiles_passed);
     CHECK_FALSE(verdict.mean_passed);
     CHECK(verdict.mean_error == Approx(0.05 / 1.0).epsilon(0.1));
-    CHECK(verdict.reasons.size() == 3);
+    CHECK(verdict.reasons.size() >= 3);
 }
 
 TEST_CASE("a bias much below the last error is found by the mean", "[converge]")
@@ -101,6 +101,7 @@ TEST_CASE("what could not have been seen is underpowered", "[converge]")
     CHECK(analysis_of(one_seed, 3).verdict.result == BiasResult::underpowered);
     SyntheticOptions few_checkpoints;
     few_checkpoints.checkpoints = 3;
+    few_checkpoints.spread = 0.1; // no value below zero
     CHECK(analysis_of(few_checkpoints, 3).verdict.result == BiasResult::underpowered);
 }
 

@@ -273,3 +273,40 @@ TEST_CASE("a strict render asks the canary and adds no option to its kernels", "
     for (const BuildReport& build : report.devices.front().builds)
         CHECK(build.options.find("fast") == std::string::npos);
 }
+
+TEST_CASE("a warm-up changes nothing but what the first launch costs", "[render]")
+{
+    Bench cold, warm;
+    cold.render(limits_of(3));
+    Renderer renderer(warm.scene, warm.geometry, false, warm.options);
+    renderer.warm_up();
+    renderer.render(warm.film, limits_of(3));
+    const RenderReport& report = renderer.report();
+    CHECK(report.warm_up_seconds > 0.0);
+    CHECK(report.counts[COUNT_CAMERA_RAYS] == 3 * PIXELS);
+    CHECK(report.devices.at(0).samples == 3 * PIXELS);
+    for (int y = 0; y < 10; ++y)
+        for (int x = 0; x < 12; ++x) CHECK(warm.film.estimate(x, y).mean == cold.film.estimate(x, y).mean);
+}
+
+TEST_CASE("the end of each pass has the rays and the devices' seconds so far", "[render]")
+{
+    Bench bench;
+    bench.twice();
+    RenderLimits limits = limits_of(128);
+    std::vector<PassEnd> ends;
+    limits.after_pass = [&](const PassEnd& end) {
+        ends.push_back(end);
+        return true;
+    };
+    const RenderReport report = bench.render(limits);
+    REQUIRE(ends.size() == 8);
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+        CHECK(ends[i].rays > ends[i - 1].rays);
+        CHECK(ends[i].kernel_seconds > ends[i - 1].kernel_seconds);
+    }
+    CHECK(ends.back().rays == report.rays());
+    // Two devices work at the same time.
+    CHECK(ends.back().kernel_seconds <= 2 * ends.back().render_seconds);
+    CHECK(ends.back().kernel_seconds == report.devices[0].kernel_seconds + report.devices[1].kernel_seconds);
+}
