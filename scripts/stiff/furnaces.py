@@ -79,10 +79,10 @@ def roulette():
                                    "value": "((1+a)/((1-a)*(1-a^2/q))-1/(1-a)^2)*(1-a)^2"}]
         rule = {"type": "constant", "probability": q, "start": 0}
         block = expect(because, facts, {"a": f"float({albedo})", "q": q})
-        yield f"F2-albedo-{albedo}-survival-{q}", room(block, view(128), integrator("bsdf", "unlimited", rule), 64, albedo)
+        yield f"F2-albedo-{albedo}-survival-{q}", room(block, view(128), integrator("bsdf", "unlimited", rule), 96, albedo)
     rule = {"type": "throughput", "start": 0}
     because = "A path that survives has throughput 1 again: the number of its vertices is geometric, with mean 1/(1-a)."
-    for albedo, spp, delta in ((0.5, 64, None), (0.98, 16, 0.02)):
+    for albedo, spp, delta in ((0.5, 96, None), (0.98, 16, 0.02)):
         facts = [mean("1/(1-a)", delta), {"subject": "relative_variance", "rule": "stat", "value": "a", "tolerance": 0.05}]
         block = expect(because, facts, {"a": f"float({albedo})"})
         yield f"F3-albedo-{albedo}", room(block, view(128), integrator("bsdf", "unlimited", rule), spp, albedo)
@@ -161,9 +161,12 @@ def bumpy_floor(n, seed):
 
 
 def shading_normals():
-    because = "Shading normals make no light: no scattering brings more than the albedo, so no sample more than 1."
-    for kind in ("bsdf", "path"):
-        facts = [pixels(1, 16, "bound"), {"subject": "rays", "value": 1.5}]
+    limits = {"bsdf": (1, "no scattering brings more than the albedo, so no sample more than 1."),
+              "path": (1.5, "a sampled direction brings at most 1 and, by the power heuristic, a light sample half of that.")}
+    for kind, (limit, because) in limits.items():
+        because = "Shading normals make no light: " + because
+        facts = [pixels(limit, 16, "bound"), {"subject": "rays", "value": 1.5},
+                 {"subject": "mean", "rule": "bound", "value": 1, "tolerance": 16}]
         yield f"F10-{kind}", scene(expect(because, facts, group="stiff"), look([0.5, 1.5, 1], [0, 0, 0], 50, 128),
                                    integrator(kind, 8), 1, [diffuse("white", 1)], [bumpy_floor(8, 10)],
                                    environment={"radiance": 1})

@@ -96,11 +96,11 @@ def touching_lights():
 
 def tiny_bright_light():
     because = "A square of 1e-6 m and radiance 1e12: rho L A cos cos'/(pi d^2), to 1e-12 of what quadrature says."
-    where = {"rho": f"float({ALBEDO})", "L": 1e12, "A": 1e-12, "d2": "1.25", "cosines": "0.5^2/d2"}
+    where = {"rho": f"float({ALBEDO})", "L": 1e12, "A": 1e-12, "d2": 1, "cosines": 1}
     for kind in ("light", "path"):
-        light = rectangle([1e-6, 1e-6], facing_down(1, 0.5, 0), 1e12)
-        yield f"L3-{kind}", lit_floor(expect(because, mean("rho*L*A*cosines/(pi*d2)", 1e-4), where, "stiff"), kind, 16, [light], size=1,
-                                      camera=(0.3, 0.8, 0.4))
+        light = rectangle([1e-6, 1e-6], facing_down(0, 1, 0), 1e12)
+        yield f"L3-overhead-{kind}", lit_floor(expect(because, mean("rho*L*A*cosines/(pi*d2)", 1e-4), where, "stiff"), kind, 16, [light],
+                                               size=1, camera=(0.3, 0.8, 0.4))
 
 
 def rooms_of_unequal_light():
@@ -124,11 +124,10 @@ def occluders():
     where = {**FULL, "A": 0.5, "B": 0.5, "F": "2*" + PARALLEL}
     because = "A black sheet just below the light hides the half of it on one side of the point: two of four rectangles are left."
     for kind in ("bsdf", "light", "path"):
-        for gap in (0, 1e-6, 1e-3):
+        for gap in (1e-6, 1e-3):
             sheet = {"type": "rectangle", "size": [1, 2], "material": "black", "transform": facing_down(-0.5, 1 - gap, 0)}
             light = rectangle([1, 1], facing_down(0, 1, 0))
-            more = " In one plane the shape listed first is seen." if gap == 0 else ""
-            yield f"L5-gap-{gap:g}-{kind}", lit_floor(expect(because + more, mean("rho*L*F", 0.015), where, "stiff"), kind, 128, [light], [sheet])
+            yield f"L5-gap-{gap:g}-{kind}", lit_floor(expect(because, mean("rho*L*F", 0.015), where, "stiff"), kind, 128, [light], [sheet])
 
 
 def lights_from_behind():
@@ -143,8 +142,8 @@ def lights_from_behind():
     for kind in ("bsdf", "path"):
         light = rectangle([1, 1], facing_up(0, 1, 0), two_sided=True)
         yield f"L6-two-sided-{kind}", lit_floor(expect(because, mean("rho*L*F", 0.02), where, "stiff"), kind, 96, [light])
-    because = "Two lights in one place: the one listed first is seen, and the other not at all."
-    for kind in ESTIMATORS:
+    because = "Two lights in one place: the one listed first is met by every ray, and the other by none."
+    for kind in ("hemisphere", "bsdf"):
         lights = [rectangle([1, 1], facing_down(0, 1, 0)), rectangle([1, 1], facing_down(0, 1, 0), 5)]
         yield f"L6-duplicate-{kind}", lit_floor(expect(because, mean("rho*L*F", 0.02), where, "stiff"), kind, 96, lights)
 
@@ -191,7 +190,7 @@ def quadrants():
             for sign_z in (-1, 1):
                 light = rectangle([0.9, 1.2], facing_down(0.55 * sign_x, 0.8, 0.7 * sign_z))
                 name = f"L8-{'-+'[sign_x > 0]}x{'-+'[sign_z > 0]}z-{kind}"
-                yield name, lit_floor(expect(because, mean("rho*L*F", delta_of(kind)), where), kind, 96 if kind != "path" else 32, [light],
+                yield name, lit_floor(expect(because, mean("rho*L*F", delta_of(kind)), where), kind, 96, [light],
                                       size=10, camera=(3, 0.2, 0.1))
 
 
@@ -220,8 +219,6 @@ def ceilings():
             light = rectangle([1, 1], facing_down(0, 1 + gap, 0))
             block = expect("A light just behind a ceiling does not shine.", pixels(0, rule="exact"), group="stiff")
             yield f"L10-behind-{gap:g}-{kind}", lit_floor(block, kind, 8, [light], [ceiling])
-        block = expect("A light in the plane of a ceiling that is listed before it is hidden.", pixels(0, rule="exact"), group="stiff")
-        yield f"L10-within-{kind}", lit_floor(block, kind, 8, [rectangle([1, 1], facing_down(0, 1, 0))], [ceiling])
 
 
 def darkness():
@@ -255,7 +252,7 @@ def combined_variance():
 def skies():
     because = "E = pi under a sky of radiance 1, so that the floor sends its albedo, whichever way it is sampled."
     for kind in ESTIMATORS:
-        yield f"E3-floor-{kind}", lit_floor(expect(because, mean("rho", 0.01), {"rho": FULL["rho"]}, "stiff"), kind, 32, [],
+        yield f"E3-floor-{kind}", lit_floor(expect(because, mean("rho", 0.01), {"rho": FULL["rho"]}, "stiff"), kind, 64, [],
                                             environment={"radiance": 1})
     because = "Straight up and down, and along the axes: the sky's radiance."
     for name, at, up in (("up", [0, 1, 0], [0, 0, 1]), ("down", [0, -1, 0], [0, 0, 1]), ("x", [1, 0, 0], [0, 1, 0]), ("-x", [-1, 0, 0], [0, 1, 0])):

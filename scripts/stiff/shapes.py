@@ -19,8 +19,8 @@ def turned_box(centre, size, cosine, sine):
     return {**mesh, "positions": points}
 
 
-def box_room(block, scale=1, offset=(0, 0, 0), integrator_=None, spp=16, size=32):
-    """The course's room, with corners that are exact in binary."""
+def box_room(block, scale=1, offset=(0, 0, 0), integrator_=None, spp=64, size=32):
+    """The course's room, with corners that are exact in binary; the lamp itself is not seen."""
     room = box_triangles([-1, 0, -1], [1, 2, 1])
     # Open towards the viewer: without the face at z = 1.
     room["indices"] = [t for t in room["indices"] if any(room["positions"][i][2] < 0 for i in t)]
@@ -34,7 +34,7 @@ def box_room(block, scale=1, offset=(0, 0, 0), integrator_=None, spp=16, size=32
               {**turned_box([-0.34, 0.6, 0.29], [0.6, 1.2, 0.6], 0.9397, -0.342), "material": "green", "transform": steps}]
     lamp = {"type": "triangles", "positions": [[-0.25, 1.984375, -0.25], [0.25, 1.984375, -0.25], [0.25, 1.984375, 0.25], [-0.25, 1.984375, 0.25]],
             "indices": [[0, 1, 2], [0, 2, 3]], "radiance": [17, 12, 4], "transform": steps}
-    view = look(place([0, 1, 6.75]), place([0, 1, 0]), 19.5, size)
+    view = look(place([0, 1, 6.75]), place([0, 1, 0]), 16, size)
     materials = [diffuse("white", 0.75), diffuse("red", [0.6, 0.1, 0.1]), diffuse("green", [0.1, 0.5, 0.1])]
     return scene(block, view, integrator_ or integrator("path", 12, {"type": "throughput", "start": 3}), spp, materials, shapes, [lamp])
 
@@ -52,7 +52,7 @@ def scaled_rooms():
         yield f"S3-offset-{distance:g}", box_room(block, 1, [distance, -distance, distance])
     because = "Scaled by what is no power of two: the same but for rounding."
     for scale in (1e-6, 1e-3, 1e3, 1e6):
-        facts = [same(rule="count", scene="S1-base.json", tolerance=1e-4, share=0.999), same(rule="stat", scene="S1-base.json", delta=0.5)]
+        facts = [same(rule="count", scene="S1-base.json", tolerance=1e-4, share=0.999), same(rule="stat", scene="S1-base.json", delta=0.2)]
         yield f"S2-scale-{scale:g}", box_room(expect(because, facts, group="stiff"), scale)
 
 
@@ -110,7 +110,7 @@ def awkward_triangles():
     n = 512
     positions = [[0, 0, 0]] + [[math.cos(2 * math.pi * k / n), 0, math.sin(2 * math.pi * k / n)] for k in range(n)]
     indices = [[0, 1 + (k + 1) % n, 1 + k] for k in range(n)]
-    yield "G1-fan", under_sky(expect(because, [body_pixels(4, 0.5, 0.95), none], group="stiff"), [triangles(positions, indices)], ([0.1, 3, 0.2], [0, 0, 0]),
+    yield "G1-fan", under_sky(expect(because, [body_pixels(4, 0.4, 0.95), none], group="stiff"), [triangles(positions, indices)], ([0.1, 3, 0.2], [0, 0, 0]),
                               accelerator="lbvh", width=96)
 
 
@@ -120,7 +120,7 @@ def bad_triangles():
     def fails(text, *overrides):
         return {"subject": "load_error", "text": text, "overrides": list(overrides)}
 
-    facts = [fails("has no area", "shapes.0.positions.2=[2,0,0]"), fails("has no area", "shapes.0.indices.0=[0,1,1]"),
+    facts = [fails("has no area", "shapes.0.positions.2=[2,0,0]"), fails("two corners in the same place", "shapes.0.indices.0=[0,1,1]"),
              fails("must be between -1e+15 and 1e+15", "shapes.0.positions.1.0=1e39"), fails("must be a number", "shapes.0.positions.1.0=\"nan\""),
              fails("1e400", "shapes.0.positions.1.0=1e400"), fails("must be less than the number of positions, 3", "shapes.0.indices.0=[0,1,3]"),
              fails("must be a list of 3 integers", "shapes.0.indices.0=[0,1]"), fails("must be between 0", "shapes.0.indices.0.0=-1")]
@@ -155,12 +155,13 @@ def trees():
     yield "B2-equal-centroids", under_sky(expect("Nested triangles have one centroid: the tree is split all the same.", facts, group="stiff"),
                                           [triangles(nested, [[3 * k, 3 * k + 1, 3 * k + 2] for k in range(256)])], ([0, 0, 4], [0, 0, 0]), accelerator="lbvh")
     positions = []
+    # With their mirror images the origin is the centre of the scene, about which floats are finest.
     for k in range(50):
-        x = 2.0**-k
-        positions += [[x, 0, 0], [x * 1.25, 0, 0], [x, x / 4, 0]]
+        for x in (2.0**-k, -(2.0**-k)):
+            positions += [[x, 0, 0], [x * 1.25, 0, 0], [x, x / 4, 0]]
     facts = [same(overrides=["accelerator=none"])]
     yield "B3-one-split-per-level", under_sky(expect("Centroids at 2^-k: one triangle leaves the tree at each level.", facts, group="stiff"),
-                                              [triangles(positions, [[3 * k, 3 * k + 1, 3 * k + 2] for k in range(50)])], ([0.4, 0.3, 2], [0.4, 0, 0]),
+                                              [triangles(positions, [[3 * k, 3 * k + 1, 3 * k + 2] for k in range(100)])], ([0.4, 0.3, 2], [0, 0, 0]),
                                               accelerator="lbvh")
     yield "B4-no-primitives", under_sky(expect("Without surfaces every pixel is the sky.", pixels(1, rule="exact"), group="stiff"), [])
     for count in (1, 2, 3):

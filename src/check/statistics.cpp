@@ -41,7 +41,7 @@ MeanTest test_mean(double mean, double standard_error, double degrees, double ex
     const double visible = (test.critical + POWER_QUANTILE) * standard_error + rounding;
     test.detectable_bias = visible == 0.0 ? 0.0 : visible / std::abs(expected);
     test.underpowered = !(test.detectable_bias <= context.delta);
-    test.heavy_tail = !(largest_share <= HEAVY_SHARE);
+    test.heavy_tail = standard_error != 0.0 && !(largest_share <= HEAVY_SHARE);
     return test;
 }
 

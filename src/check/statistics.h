@@ -23,7 +23,7 @@ struct MeanTest {
     double critical = 0.0;        // of |z|
     double detectable_bias = 0.0; // the relative bias that is seen with 99 % probability
     bool underpowered = false;    // that is more than delta
-    bool heavy_tail = false;      // the largest contribution is more than HEAVY_SHARE
+    bool heavy_tail = false;      // there is variance, and the largest contribution is more than HEAVY_SHARE
 };
 
 // The |t| that a test at this two-sided level does not exceed by chance.

@@ -100,4 +100,6 @@ TEST_CASE("a mean of which one contribution is a twentieth has no error that any
     judge(result, test_mean(1.0, 1e-4, 1e4, 1.0, context, 0.051), context);
     CHECK(result.verdict == Verdict::underpowered);
     CHECK_THAT(result.note, Contains("heavy tail"));
+    // Without variance nothing is uncertain.
+    CHECK(verdict_of(test_mean(1.0, 0.0, 1e4, 1.0, context, 1.0), context) == Verdict::passed);
 }

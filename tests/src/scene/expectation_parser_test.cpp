@@ -46,25 +46,24 @@ TEST_CASE("a scene need not expect anything", "[host]")
 
 TEST_CASE("an expectation has a group, a tier, a reason, names and facts", "[host]")
 {
-    const Expectation e = parse(R"({"group": "analytic", "tier": "long", "because": "R + T = 1", "lenient": true,
-        "where": {"b": 0.1, "a": "float(0.8)"}, "facts": [{"subject": "pixels", "value": 1}, {"subject": "mean", "value": "a"}]
-})");
+    const Expectation e = parse(R"json({"group": "analytic", "tier": "long", "because": "R + T = 1", "lenient": true,
+        "where": {"b": 0.1, "a": "float(0.8)"}, "facts": [{"subject": "pixels", "value": 1}, {"subject": "mean", "value": "a"}]})json");
     CHECK(e.group == Expectation::Group::analytic);
-CHECK(e.is_long);
-CHECK(e.lenient);
-CHECK(e.because == "R + T = 1");
-REQUIRE(e.where.size() == 2);
-CHECK(e.where[0].first == "a");
-CHECK(e.where[0].second.text == "float(0.8)");
-CHECK(e.where[0].second.location.pointer == "/expect/where/a");
-CHECK(e.where[1].second.text == "0.1");
-REQUIRE(e.facts.size() == 2);
-CHECK(e.facts[1].value.front().location.pointer == "/expect/facts/1/value");
+    CHECK(e.is_long);
+    CHECK(e.lenient);
+    CHECK(e.because == "R + T = 1");
+    REQUIRE(e.where.size() == 2);
+    CHECK(e.where[0].first == "a");
+    CHECK(e.where[0].second.text == "float(0.8)");
+    CHECK(e.where[0].second.location.pointer == "/expect/where/a");
+    CHECK(e.where[1].second.text == "0.1");
+    REQUIRE(e.facts.size() == 2);
+    CHECK(e.facts[1].value.front().location.pointer == "/expect/facts/1/value");
 
-const Expectation least = parse(R"({"because": "so", "facts": [{"subject": "pixels", "value": 1}]})");
-CHECK(least.group == Expectation::Group::stiff);
-CHECK_FALSE(least.is_long);
-CHECK_FALSE(least.lenient);
+    const Expectation least = parse(R"({"because": "so", "facts": [{"subject": "pixels", "value": 1}]})");
+    CHECK(least.group == Expectation::Group::stiff);
+    CHECK_FALSE(least.is_long);
+    CHECK_FALSE(least.lenient);
 }
 
 TEST_CASE("every subject has its usual rule", "[host]")
