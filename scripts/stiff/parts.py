@@ -73,7 +73,7 @@ def facing_up(x=0, y=0, z=0):
 
 def scene(name_expectation, view, integrator_, spp, materials=(), shapes=(), lights=(), **more):
     """The objects of a scene in the order in which they are read best."""
-    result = {"expect": name_expectation, **view, "integrator": integrator_, "sampler": {"spp": spp}}
+    result = {"expect": name_expectation, **view, "integrator": integrator_, "sampler": {"type": "independent", "spp": spp}}
     for key, value in (("materials", materials), ("shapes", shapes), ("lights", lights)):
         if value:
             result[key] = list(value)
