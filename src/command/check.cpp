@@ -2,6 +2,7 @@
 #include "command/check.h"
 
 #include "check/check_json.h"
+#include "check/device_functions.h"
 #include "check/run.h"
 #include "check/table.h"
 #include "command/check_arguments.h"
@@ -74,6 +75,9 @@ RunResult run_on(const DeviceInfo& info, const std::vector<Check>& checks, const
                  const CheckArguments& arguments, Log& log)
 {
     const Device device(info);
+    // What the checks have built for the device goes before it.
+    const std::unique_ptr<const Device, void (*)(const Device*)> programs(
+        &device, [](const Device*) { release_device_functions(); });
     options.context.device = &device;
     print(log, fmt::format("{} ({})\n{}", info.name, info.platform_name, table_header()));
     const Stopwatch watch;

@@ -167,6 +167,8 @@ std::optional<Reference> independent_reference(const PreparedConfiguration& prep
         scene.sampler.type = SamplerType::independent;
         RenderOptions render_options = prepared.options;
         render_options.specialize = true;
+        render_options.precision = Precision::single;
+        render_options.fast_math = false;
         ReplicateSum sum;
         const Stopwatch watch;
         for (std::size_t r = 0; r < REFERENCE_REPLICATES; ++r) {

@@ -24,11 +24,8 @@ RenderOptions render_options(const Configuration& configuration, const Preparati
     result.lanes = configuration.lanes;
     result.specialize = configuration.specialize;
     result.cache = options.cache;
-    if (configuration.precision != "single")
-        throw UsageError(fmt::format("{}: render.precision={} is not part of this program.", configuration.name,
-                                     configuration.precision));
-    if (configuration.fast_math)
-        throw UsageError(configuration.name + ": render.fast_math=on is not part of this program.");
+    result.precision = configuration.precision == "fp64" ? Precision::fp64 : Precision::single;
+    result.fast_math = configuration.fast_math;
     return result;
 }
 
