@@ -128,7 +128,7 @@ Scene scene_of(const Mesh& mesh, const std::string& file)
 {
     Scene scene;
     scene.file = scene.camera.location.file = file;
-    scene.materials.push_back({.name = "grey", .parameters = {0.5, 0.5, 0.5}});
+    scene.materials.push_back({"grey", BSDF_DIFFUSE, {0.5, 0.5, 0.5}, {}});
     ShapeDescription& shape = scene.shapes.emplace_back();
     shape.geometry = InlineTriangles{mesh.positions, {}, mesh.indices};
     shape.emission = Emission{Vec3(1.0), false};

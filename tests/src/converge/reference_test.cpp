@@ -20,7 +20,7 @@ ExpectedFact fact(ExpectedFact::Subject subject, std::vector<std::string> value)
 {
     ExpectedFact result;
     result.subject = subject;
-    result.value = std::move(value);
+    for (std::string& text : value) result.value.push_back({std::move(text), {}});
     return result;
 }
 

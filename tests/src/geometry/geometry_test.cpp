@@ -290,7 +290,7 @@ TEST_CASE("the course box comes from its files: 34 triangles that face their ver
 TEST_CASE("a scene of environment alone is seen from the origin")
 {
     Scene scene;
-    scene.environment = EnvironmentDescription{Vec3(1), {}};
+    scene.environment.emplace().radiance = Vec3(1);
     const Geometry g = make_geometry(scene);
     CHECK(g.primitives.empty());
     CHECK(g.normalisation.centre == scene.camera.position);
