@@ -23,6 +23,7 @@ constexpr std::uint64_t SAMPLES = 4, SAMPLES_OF_SERIES = 16;
 const char* const ROOM = R"({
     "camera": {"position": [0.1, 0.2, -0.3], "look_at": [0.6, 0.1, 0.1], "vertical_fov": 100},
     "film": {"size": [128, 128]},
+    "sampler": "independent",
     "integrator": {"type": "bsdf", "max_depth": "unlimited",
                    "roulette": {"type": "constant", "start": 0, "probability": 0.8}},
     "materials": [{"name": "wall", "type": "diffuse", "albedo": 0.5}],

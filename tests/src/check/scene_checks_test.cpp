@@ -20,7 +20,7 @@ std::string room(const std::string& facts, const std::string& expect_more = "")
     return fmt::format(R"({{
         "expect": {{"because": "a test", {} "facts": [{}]}},
         "camera": {{"position": [0.1, 0.2, -0.3], "look_at": [0.5, -0.1, 0.4], "vertical_fov": 100}},
-        "film": {{"size": [4, 4]}}, "integrator": {{"type": "bsdf", "max_depth": 3, "roulette": "off"}}, "sampler": {{"spp": 2}},
+        "film": {{"size": [4, 4]}}, "integrator": {{"type": "bsdf", "max_depth": 3, "roulette": "off"}}, "sampler": {{"type": "independent", "spp": 2}},
         "materials": [{{"name": "white", "type": "diffuse", "albedo": 1}}],
         "shapes": [{{"type": "box", "size": [2, 2, 2], "material": "white", "flip_normals": true, "emission": {{"radiance": 1}}}}]}})",
                        expect_more, facts);

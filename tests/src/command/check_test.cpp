@@ -31,7 +31,7 @@ std::string room(const std::string& fact, const std::string& tier = "quick")
         "expect": {{"because": "a test", "tier": "{}", "facts": [{}]}},
         "camera": {{"position": [0.1, 0.2, -0.3], "look_at": [0.5, -0.1, 0.4], "vertical_fov": 100}}, "film": {{"size": [8, 8]}},
         "integrator": {{"type": "bsdf", "max_depth": "unlimited", "roulette": {{"type": "constant", "probability": 0.8, "start": 0}}}},
-        "sampler": {{"spp": 64}}, "materials": [{{"name": "grey", "type": "diffuse", "albedo": 0.5}}],
+        "sampler": {{"type": "independent", "spp": 64}}, "materials": [{{"name": "grey", "type": "diffuse", "albedo": 0.5}}],
         "shapes": [{{"type": "box", "size": [2, 2, 2], "material": "grey", "flip_normals": true, "emission": {{"radiance": 1}}}}]}})",
                        tier, fact);
 }

@@ -20,6 +20,7 @@ StudyOptions small_study(const std::string& reference)
 {
     StudyOptions options;
     options.preparation.scene = ETENDUE_SOURCE_DIR "/scenes/course-box/simple_native.json";
+    options.preparation.overrides = {"sampler.type=independent"};
     options.preparation.size = FilmSize{16, 16};
     options.preparation.device = std::to_string(test_devices().front().info().index);
     options.configurations = {parse_configuration("default")};
