@@ -305,6 +305,7 @@ TEST_CASE("a block of samples can be cut at any point", "[render][equivalence]")
     const PixelRect whole{0, 0, WIDTH, HEIGHT};
     const auto render_passes = [&](const std::vector<std::uint32_t>& passes) {
         Film film(WIDTH, HEIGHT, whole, true);
+        film.set_error_estimate(error_estimate_of(scene));
         std::vector<PixelBlock> blocks;
         std::vector<PixelAov> aovs;
         std::uint32_t first = 0;
