@@ -8,4 +8,7 @@
 namespace etendue
 {
 std::vector<Check> sampling_checks();
+
+// Its part about the evenness of samplers.
+std::vector<Check> sampler_checks();
 } // namespace etendue

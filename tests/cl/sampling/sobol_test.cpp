@@ -1,5 +1,5 @@
-// Owen-scrambled Sobol points against direction numbers, nets counted interval by interval, and the statistics that
-// scrambling promises.
+// Owen-scrambled Sobol points against direction numbers, and the statistics that scrambling promises; that they are
+// nets is a check (check/sampler_checks).
 #include "support/device_lanes.h"
 #include "util/statistics.h"
 
@@ -31,7 +31,6 @@ const DeviceFunctions
               });
 
 using Words = std::vector<std::uint32_t>;
-using Point = std::array<std::uint32_t, 2>;
 
 std::uint32_t reversed(std::uint32_t x)
 {
@@ -52,19 +51,6 @@ std::uint32_t sobol_by_direction_numbers(std::uint32_t index)
     return x;
 }
 
-// Samples 0, 1, ... of one pixel and dimension: its first or second points.
-std::vector<Point> points(const Device& device, const Words& stream, std::uint32_t pixel, std::uint32_t dimension,
-                          const Words& samples, std::size_t pair)
-{
-    const auto out = functions
-                         .evaluate(device, "block",
-                                   {stream, Words(samples.size(), pixel), samples, Words(samples.size(), dimension)})
-                         .outputs;
-    std::vector<Point> result(samples.size());
-    for (std::size_t i = 0; i < samples.size(); ++i) result[i] = {out[2 * pair][i], out[2 * pair + 1][i]};
-    return result;
-}
-
 // The samples whose places in the sequence of a replicate are 0, 1, ..., count - 1.
 Words samples_of_replicate(std::uint32_t replicate, std::uint32_t replicates, std::uint32_t count)
 {
@@ -73,23 +59,6 @@ Words samples_of_replicate(std::uint32_t replicate, std::uint32_t replicates, st
         samples[i] = i / SAMPLES_PER_BLOCK * SAMPLES_PER_BLOCK * replicates + replicate * SAMPLES_PER_BLOCK +
                      i % SAMPLES_PER_BLOCK;
     return samples;
-}
-
-// Whether the first 2^m points have one in each of the 2^m intervals of 2^-a by 2^(a-m), for every a.
-bool is_net(const std::vector<Point>& points, int m)
-{
-    const std::size_t count = std::size_t{1} << m;
-    for (int a = 0; a <= m; ++a) {
-        std::vector<bool> taken(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::uint64_t column = std::uint64_t{points[i][0]} >> (32 - a);
-            const std::uint64_t row = std::uint64_t{points[i][1]} >> (32 - (m - a));
-            const auto interval = static_cast<std::size_t>(column << (m - a) | row);
-            if (taken[interval]) return false;
-            taken[interval] = true;
-        }
-    }
-    return true;
 }
 
 double unit(std::uint32_t bits)
@@ -172,28 +141,6 @@ TEST_CASE("replicates take turns block by block and none repeats a place")
             }
             CHECK(places.size() == 5 * sample.size());
         }
-}
-
-TEST_CASE("every prefix of 2^m samples is a (0,2)-net, for both points of a block")
-{
-    constexpr int LARGEST = 10;
-    for (Device& device : test_devices())
-        for (const std::uint32_t replicates : {1u, 2u})
-            for (std::uint32_t replicate = 0; replicate < replicates; ++replicate) {
-                const Words samples = samples_of_replicate(replicate, replicates, 1u << LARGEST);
-                std::size_t nets = 0, broken = 0;
-                for (const std::uint32_t pixel : {0u, 1u, 2u, 599u, 16384u * 16384u - 1u})
-                    for (const std::uint32_t dimension : {0u, 1u, 2u, 3u, 1025u, 131073u})
-                        for (const std::uint32_t high : {0u, 5u})
-                            for (std::size_t pair = 0; pair < 2; ++pair) {
-                                const auto p =
-                                    points(device, {7, 3, high, replicates}, pixel, dimension, samples, pair);
-                                for (int m = 0; m <= LARGEST; ++m, ++nets) broken += !is_net(p, m);
-                            }
-                CAPTURE(replicates, replicate);
-                CHECK(broken == 0);
-                CHECK(nets == 5 * 6 * 2 * 2 * (LARGEST + 1));
-            }
 }
 
 TEST_CASE("the mean of a smooth function is unbiased, and its variance falls as fast as scrambled nets promise")

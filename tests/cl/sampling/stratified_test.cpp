@@ -1,4 +1,5 @@
-// Stratified samples: cells filled once each, permutations drawn without preference, blocks independent of each other.
+// Stratified samples: permutations drawn without preference, blocks independent of each other; that each cell is
+// filled once is a check (check/sampler_checks).
 #include "support/chi_square.h"
 #include "support/device_lanes.h"
 
@@ -25,41 +26,7 @@ const DeviceFunctions
               });
 
 using Words = std::vector<std::uint32_t>;
-
-std::uint32_t cell_of(std::uint32_t u, std::uint32_t v)
-{
-    return (u >> 29) * 8 + (v >> 29);
-}
 } // namespace
-
-TEST_CASE("each block of 64 samples has one in each of 8x8 cells, for both points")
-{
-    constexpr std::uint32_t BLOCKS = 5;
-    Words pixel, sample, dimension;
-    for (const std::uint32_t p : {0u, 1u, 600u, 16384u * 16384u - 1u})
-        for (const std::uint32_t d : {0u, 1u, 2u, 1025u, 131073u})
-            for (std::uint32_t s = 0; s < BLOCKS * SAMPLES_PER_BLOCK; ++s) {
-                pixel.push_back(p);
-                dimension.push_back(d);
-                sample.push_back(s);
-            }
-    for (Device& device : test_devices())
-        for (const std::uint32_t high : {0u, 3u}) {
-            const auto out =
-                evaluate_in_all_lanes(functions, device, "block", {Words{1, 2, high}, pixel, sample, dimension})
-                    .outputs;
-            std::size_t empty = 0;
-            for (std::size_t begin = 0; begin < sample.size(); begin += SAMPLES_PER_BLOCK) {
-                std::set<std::uint32_t> first, second;
-                for (std::size_t i = begin; i < begin + SAMPLES_PER_BLOCK; ++i) {
-                    first.insert(cell_of(out[0][i], out[1][i]));
-                    second.insert(cell_of(out[2][i], out[3][i]));
-                }
-                empty += 2 * SAMPLES_PER_BLOCK - first.size() - second.size();
-            }
-            CHECK(empty == 0);
-        }
-}
 
 TEST_CASE("the order of the cells is a permutation without preference for any first two of them")
 {
