@@ -103,8 +103,10 @@ std::vector<CheckResult> check_grazing(const CheckContext& context)
                 violations.set_subject(fmt::format("height {:.3g}, cosine {:.3g}, {}", static_cast<double>(height),
                                                    static_cast<double>(cosine), outward ? "away" : "through"));
                 const Departures from = departures(DEPARTURES, outward ? cosine : -cosine);
-                for (const std::uint32_t hits : leave(*context.device, floor, far, from, outward, context.lanes).floor)
-                    violations.expect(hits == 0, "floor met again");
+                const Met met = leave(*context.device, floor, far, from, outward, context.lanes);
+                for (const std::uint32_t hits : met.floor) violations.expect(hits == 0, "floor met again");
+                if (outward) continue;
+                for (const std::uint32_t hits : met.sheet) violations.expect(hits == 0, "sheet above met from below");
             }
     }
     return {violations.result("grazing-self-hits")};

@@ -1,10 +1,10 @@
-// Random numbers by position: known answers, an independent generator, counters that never meet, independent streams.
-#include "support/chi_square.h"
+// Random numbers by position: known answers, an independent generator, counters that never meet; that
+// streams are independent is a check (check/sampling_checks).
+#include "check/philox_reference.h"
 #include "support/device_lanes.h"
 
 #include <catch2/catch.hpp>
 
-#include <array>
 #include <random>
 #include <set>
 
@@ -25,20 +25,7 @@ const DeviceFunctions functions(
     });
 
 using Words = std::vector<std::uint32_t>;
-using Block = std::array<std::uint32_t, 4>;
-
-// Philox4x32-10 from its definition: ten rounds of two multiplications, the key raised in between.
-Block reference_philox(Block c, std::uint64_t k0, std::uint64_t k1)
-{
-    for (int round = 0; round < 10; ++round) {
-        const std::uint64_t first = 0xD2511F53ull * c[0], second = 0xCD9E8D57ull * c[2];
-        c = {static_cast<std::uint32_t>((second >> 32) ^ c[1] ^ k0), static_cast<std::uint32_t>(second),
-             static_cast<std::uint32_t>((first >> 32) ^ c[3] ^ k1), static_cast<std::uint32_t>(first)};
-        k0 = (k0 + 0x9E3779B9u) & 0xffffffffu;
-        k1 = (k1 + 0xBB67AE85u) & 0xffffffffu;
-    }
-    return c;
-}
+using Block = PhiloxBlock;
 
 Block element(const DeviceResults& out, std::size_t i)
 {
@@ -137,41 +124,5 @@ TEST_CASE("bits become numbers of [0, 1) and choices, exactly")
                      out.outputs[1][i] != (bits[i] < threshold[i]);
         CHECK(wrong == 0);
         CHECK(u[5] == 1.0f - 0x1p-24f);
-    }
-}
-
-TEST_CASE("neighbouring pixels, samples, dimensions, seeds and words draw independently")
-{
-    // Pairs of numbers, one of a position and one of its neighbour: uniform over the square.
-    constexpr std::size_t COUNT = 1 << 20;
-    Words pixel(COUNT), sample(COUNT), dimension(COUNT);
-    for (std::uint32_t i = 0; i < COUNT; ++i) {
-        pixel[i] = i % 1024;
-        sample[i] = i / 1024 % 256;
-        dimension[i] = i / (1024 * 256);
-    }
-    const auto shifted = [](Words words) {
-        for (std::uint32_t& word : words) ++word;
-        return words;
-    };
-    for (Device& device : test_devices()) {
-        const auto draw = [&](const Words& stream, const Words& p, const Words& s, const Words& d) {
-            return functions.evaluate(device, "block", {stream, p, s, d}).outputs;
-        };
-        const Words stream{1, 0, 0};
-        const auto here = draw(stream, pixel, sample, dimension);
-        const std::pair<std::string, std::vector<std::uint32_t>> neighbours[] = {
-            {"pixels", draw(stream, shifted(pixel), sample, dimension)[0]},
-            {"samples", draw(stream, pixel, shifted(sample), dimension)[0]},
-            {"dimensions", draw(stream, pixel, sample, shifted(dimension))[0]},
-            {"seeds", draw({2, 0, 0}, pixel, sample, dimension)[0]},
-            {"first and second words", here[1]},
-            {"first and fourth words", here[3]},
-        };
-        for (const auto& [name, there] : neighbours) {
-            Histogram pairs(16, 16);
-            for (std::size_t i = 0; i < COUNT; ++i) pairs.add(unit(here[0][i]), unit(there[i]));
-            check_histogram("random numbers of neighbouring " + name, pairs, std::vector<double>(256, 1.0 / 256));
-        }
     }
 }
