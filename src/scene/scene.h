@@ -57,7 +57,8 @@ struct SamplerDescription {
     SamplerType type = SamplerType::independent;
     std::uint64_t samples_per_pixel = 64;
     std::uint64_t seed = 0;
-    std::uint32_t replicates = 2; // sobol only: sequences scrambled independently, 1 or 2; their difference is the error
+    std::uint32_t replicates =
+        2; // sobol only: sequences scrambled independently, 1 or 2; their difference is the error
     SourceLocation location;
 };
 

@@ -1,8 +1,8 @@
 // The primitives of a leaf, and of a whole scene one after the other, against double precision and against each other.
-#include "math/vector.h"
 #include "check/primitive_sets.h"
-#include "support/device_evaluate.h"
 #include "check/traversal.h"
+#include "math/vector.h"
+#include "support/device_evaluate.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

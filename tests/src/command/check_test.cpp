@@ -100,11 +100,10 @@ TEST_CASE("the list names every case, and those that need features to come", "[c
 {
     const ChildResult all = check({"--list", "--long"});
     CHECK(all.exit_code == 0);
-    for (const char* id :
-         {"F1-", "F2-", "F3-", "F4-", "F5-", "F6-", "F7-", "F8-", "F9-",  "F10-", "F11-", "L0-", "L1-",
-          "L2-", "L3-", "L4-", "L5-", "L6-", "L7-", "L8-", "L9-", "L10-", "L11-", "S1-",  "S2-", "S3-",
-          "S4-", "S5-", "G1-", "G2-", "G3-", "B2-", "B3-", "B4-", "R2-",  "R3-",  "R4-",  "M1-", "M2-",
-          "M3-", "M5-", "M6-", "P1-", "P2-", "P3-", "P4-", "E1-", "E2-",  "E3-",  "E4-",  "A1-", "I1-"})
+    for (const char* id : {"F1-", "F2-", "F3-", "F4-", "F5-", "F6-", "F7-", "F8-", "F9-",  "F10-", "F11-", "L0-", "L1-",
+                           "L2-", "L3-", "L4-", "L5-", "L6-", "L7-", "L8-", "L9-", "L10-", "L11-", "S1-",  "S2-", "S3-",
+                           "S4-", "S5-", "G1-", "G2-", "G3-", "B2-", "B3-", "B4-", "R2-",  "R4-",  "M1-",  "M2-", "M3-",
+                           "M5-", "M6-", "P1-", "P2-", "P3-", "P4-", "E1-", "E2-", "E3-",  "E4-",  "A1-",  "I1-"})
         CHECK_THAT(all.output, Contains(std::string(" ") + id));
     CHECK_THAT(check({"analytic", "--list"}).output, !Contains("S1-base") && Contains("F1-albedo-0.8-depth-8"));
     const ChildResult some = check({"--list", "--only", "F5-depth-?", "--only", "S1-base"});

@@ -51,7 +51,8 @@ TEST_CASE("a device that computes strictly passes the canary, with twelve findin
     }
 }
 
-TEST_CASE("under relaxed floating point PoCL's compiler loses NaN, rounding errors and signs of zero, and the canary sees it")
+TEST_CASE(
+    "under relaxed floating point PoCL's compiler loses NaN, rounding errors and signs of zero, and the canary sees it")
 {
     for (const Device& device : test_devices()) {
         if (!is_pocl(device)) continue;
