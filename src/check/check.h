@@ -51,6 +51,7 @@ struct CheckResult {
 struct CheckContext {
     const Device* device = nullptr;
     std::uint32_t lanes = 0;  // 0: as suits the device
+    bool specialize = false;  // scenes by their own kernels, not by the general one
     double test_alpha = 2e-6; // two-sided level of one statistical test: the family's level after Sidak
     double delta = 0.005;     // relative bias that a statistical test must be able to see
     std::uint64_t seed = 0;   // added to the seeds of everything random

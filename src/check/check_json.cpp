@@ -2,6 +2,7 @@
 #include "check/check_json.h"
 
 #include "check/table.h"
+#include "util/revision.h"
 
 #include <json/json.h>
 
@@ -69,7 +70,8 @@ std::string check_json(const std::vector<RunResult>& runs, const Family& family,
                        const std::string& command)
 {
     Json::Value json;
-    json["program"] = "etendue " ETENDUE_VERSION;
+    json["etendue"] = ETENDUE_VERSION;
+    json["revision"] = REVISION;
     json["command"] = command;
     json["seed"] = static_cast<Json::UInt64>(context.seed);
     json["delta"] = context.delta;

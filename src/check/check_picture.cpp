@@ -44,7 +44,7 @@ CheckPicture check_picture(const CheckContext& context, const LoadedScene& loade
     RenderOptions options;
     options.devices = {context.device->info()};
     options.lanes = context.lanes;
-    options.specialize = choice.specialized;
+    options.specialize = choice.specialized || context.specialize;
     options.cache = context.cache;
     Renderer renderer(scene, geometry, false, options);
     Film film(scene.film.width, scene.film.height, {0, 0, scene.film.width, scene.film.height}, false);

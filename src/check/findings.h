@@ -2,7 +2,7 @@
 #pragma once
 
 #include "check/check.h"
-#include "check/chi_square.h"
+#include "util/chi_square.h"
 
 #include <string>
 #include <utility>

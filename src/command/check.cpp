@@ -6,6 +6,7 @@
 #include "check/run.h"
 #include "check/table.h"
 #include "command/check_arguments.h"
+#include "command/command_line.h"
 #include "compute/device.h"
 #include "util/file.h"
 #include "util/interrupt.h"
@@ -24,7 +25,7 @@ namespace etendue
 {
 namespace
 {
-const char* const EXAMPLES =
+const char* const CHECK_EXAMPLES =
     "Examples:\n"
     "  etendue check                         everything that is quick\n"
     "  etendue check analytic --only 'F*'    furnaces\n"
@@ -56,6 +57,8 @@ std::uint64_t fresh_seed()
 CheckContext make_context(const CheckArguments& arguments)
 {
     CheckContext context;
+    context.lanes = arguments.lanes;
+    context.specialize = arguments.specialize == "on";
     context.delta = arguments.delta;
     context.seed = arguments.seed == "fresh" ? fresh_seed() : 0;
     context.cache = arguments.no_cache ? KernelCache::none() : KernelCache::standard();
@@ -149,26 +152,12 @@ int check(const CheckArguments& arguments, const std::string& command_line)
     if (!arguments.json.empty()) write_file(arguments.json, check_json(runs, family, options.context, command_line));
     return exit_code(runs);
 }
-
-// The command as it was given, for the report.
-std::string command_line(const CLI::App& command)
-{
-    std::string text = "etendue " + command.get_name();
-    for (const CLI::Option* option : command.get_options()) {
-        if (option->get_name() == "--help") continue;
-        for (const std::string& value : option->results()) {
-            if (!option->get_positional()) text += ' ' + option->get_name();
-            if (option->get_items_expected_max() > 0) text += ' ' + value;
-        }
-    }
-    return text;
-}
 } // namespace
 
 void register_check(CLI::App& app, std::function<int()>& action)
 {
     CLI::App* command = app.add_subcommand("check", "Check this program on this device against closed forms");
-    command->footer(EXAMPLES);
+    command->footer(CHECK_EXAMPLES);
     const auto arguments = std::make_shared<CheckArguments>();
     add_check_options(*command, *arguments);
     command->callback([arguments, command, &action] {

@@ -9,6 +9,7 @@
 #include "check/sampling_checks.h"
 #include "check/scene_checks.h"
 #include "check/twin_checks.h"
+#include "command/render_arguments.h"
 #include "util/suggestion.h"
 
 #include <algorithm>
@@ -130,6 +131,12 @@ void add_check_options(CLI::App& command, CheckArguments& arguments)
     command.add_flag("--list", arguments.list, "Say which checks there are and run none");
     command.add_option("--device", arguments.device, "Device, as for render; of several each runs every check")
         ->type_name("SPEC");
+    add_lanes_option(command, arguments.lanes);
+    command
+        .add_option("--specialize", arguments.specialize,
+                    "on: scenes run on kernels compiled for them alone; off: on the general kernel, compiled once")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->capture_default_str();
     command.add_option("--alpha", arguments.alpha, "Probability that any statistical test fails without a reason")
         ->check(CLI::Range(1e-12, 0.5))
         ->capture_default_str();

@@ -15,9 +15,10 @@ namespace etendue
 struct CheckArguments {
     std::vector<std::string> what; // groups, scene files and folders
     std::vector<std::string> only; // globs on names
-    std::string device = "auto", seed = "fixed", json;
+    std::string device = "auto", seed = "fixed", specialize = "off", json;
     double alpha = 1e-3, delta = 0.005;
     std::optional<double> budget; // seconds
+    std::uint32_t lanes = 0;      // 0: as suits the device
     bool is_long = false, list = false, quiet = false, no_cache = false;
 };
 

@@ -5,9 +5,6 @@
 
 namespace etendue
 {
-namespace
-{
-// Within single quotes where a shell would take it for something else.
 std::string shell_word(const std::string& word)
 {
     bool is_plain = !word.empty();
@@ -19,8 +16,6 @@ std::string shell_word(const std::string& word)
     for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return quoted + "'";
 }
-} // namespace
-
 std::string command_line(const CLI::App& command)
 {
     std::string text = "etendue " + command.get_name();

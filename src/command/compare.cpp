@@ -23,7 +23,7 @@ namespace etendue
 {
 namespace
 {
-const char* const EXAMPLES =
+const char* const COMPARE_EXAMPLES =
     "Examples:\n"
     "  etendue compare new.exr reference.exr\n"
     "  etendue compare new.exr reference.exr --html report.html --diff error.png\n"
@@ -203,7 +203,7 @@ int compare(const CompareArguments& arguments, const std::string& command)
 void register_compare(CLI::App& app, std::function<int()>& action)
 {
     CLI::App* command = app.add_subcommand("compare", "Measure how far a picture is from a reference");
-    command->footer(EXAMPLES);
+    command->footer(COMPARE_EXAMPLES);
     const auto arguments = std::make_shared<CompareArguments>();
     add_options(*command, *arguments);
     command->callback([arguments, command, &action] {

@@ -1,6 +1,8 @@
 // Text and JSON of a comparison.
 #include "command/comparison_report.h"
 
+#include "util/revision.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -133,7 +135,8 @@ std::string comparison_json(const ComparisonReport& report)
 {
     const Comparison& c = report.comparison;
     Json::Value json;
-    json["version"] = ETENDUE_VERSION;
+    json["etendue"] = ETENDUE_VERSION;
+    json["revision"] = REVISION;
     json["command"] = report.command;
     json["a"] = picture_json(report.a);
     json["b"] = picture_json(report.b);

@@ -17,7 +17,7 @@ namespace etendue
 {
 namespace
 {
-const char* const EXAMPLES =
+const char* const CONVERGE_EXAMPLES =
     "Examples:\n"
     "  etendue converge scenes/course-box/simple.json --out study\n"
     "  etendue converge room.json --out study --compare integrators\n"
@@ -87,7 +87,7 @@ int converge(const ConvergeArguments& arguments, const std::string& command_line
 void register_converge(CLI::App& app, std::function<int()>& action)
 {
     CLI::App* command = app.add_subcommand("converge", "Measure error against run time, with a verdict on bias");
-    command->footer(EXAMPLES);
+    command->footer(CONVERGE_EXAMPLES);
     const auto arguments = std::make_shared<ConvergeArguments>();
     add_converge_options(*command, *arguments);
     command->callback([arguments, command, &action] {

@@ -1,6 +1,7 @@
 // Options of `etendue converge`.
 #include "command/converge_arguments.h"
 
+#include "command/render_arguments.h"
 #include "converge/curve.h"
 #include "scene/scene_tables.h"
 #include "util/suggestion.h"
@@ -17,7 +18,6 @@ namespace etendue
 namespace
 {
 constexpr std::uint64_t MOST_SEEDS = 10'000;
-constexpr std::uint64_t MAX_SEED = ~std::uint64_t{0} >> 1;
 
 std::string metric_name(const std::string& option, const std::string& name)
 {

@@ -29,7 +29,7 @@ namespace etendue
 {
 namespace
 {
-const char* const EXAMPLES =
+const char* const RENDER_EXAMPLES =
     "Examples:\n"
     "  etendue render scenes/course-box/simple.json\n"
     "  etendue render room.json -o room.exr -o room.png --spp 256 --report report.json\n"
@@ -290,7 +290,7 @@ int render(const RenderArguments& arguments, const std::string& command_line)
 void register_render(CLI::App& app, std::function<int()>& action)
 {
     CLI::App* command = app.add_subcommand("render", "Render a scene into pictures");
-    command->footer(EXAMPLES);
+    command->footer(RENDER_EXAMPLES);
     const auto arguments = std::make_shared<RenderArguments>();
     add_render_options(*command, *arguments);
     command->callback([arguments, command, &action] {

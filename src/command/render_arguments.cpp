@@ -16,7 +16,6 @@ namespace etendue
 {
 namespace
 {
-constexpr std::uint64_t MAX_SEED = ~std::uint64_t{0} >> 1;
 
 // Index of the variant of a table that an option names.
 std::size_t variant_number(const Table& table, const std::string& option, const std::string& name)
@@ -89,6 +88,14 @@ std::vector<int> integers(const std::string& option, const std::string& text, ch
     if (values.size() != count || at != end)
         throw UsageError(fmt::format("{} must be {}, is \"{}\".", option, expected, text));
     return values;
+}
+
+void add_lanes_option(CLI::App& command, std::uint32_t& lanes)
+{
+    command.add_option("--lanes", lanes, "Paths that one work-item carries: 1, 4, 8 or 16 (0: as suits the device)")
+        ->check(CLI::IsMember({"0", "1", "4", "8", "16"}))
+        ->type_name("N")
+        ->capture_default_str();
 }
 
 void add_picture_options(CLI::App& command, RenderArguments& a)
@@ -170,10 +177,7 @@ void add_render_options(CLI::App& command, RenderArguments& a)
         ->transform(whole_number(0, NO_INDEX))
         ->type_name("N")
         ->capture_default_str();
-    command.add_option("--lanes", a.lanes, "Paths that one work-item carries: 1, 4, 8 or 16 (0: as suits the device)")
-        ->check(CLI::IsMember({"0", "1", "4", "8", "16"}))
-        ->type_name("N")
-        ->capture_default_str();
+    add_lanes_option(command, a.lanes);
     command.add_flag("--fast-math", a.fast_math,
                      "An experiment: let the compiler relax floating point. The picture may be wrong, and says so");
 }

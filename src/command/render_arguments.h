@@ -32,7 +32,10 @@ struct RenderArguments {
 };
 
 inline constexpr std::uint64_t MAX_SAMPLES = 1'000'000'000'000'000; // per pixel, as in a scene
+inline constexpr std::uint64_t MAX_SEED = ~std::uint64_t{0} >> 1;
 
+// Declare --lanes.
+void add_lanes_option(CLI::App& command, std::uint32_t& lanes);
 // Declare the options that say which picture and on which device, which other commands have too.
 void add_picture_options(CLI::App& command, RenderArguments& arguments);
 // Declare these and all others.

@@ -1,6 +1,7 @@
 // `etendue replay`: load, replay twice, print side by side.
 #include "command/replay.h"
 
+#include "command/command_line.h"
 #include "command/replay_text.h"
 #include "scene/scene_loader.h"
 #include "util/log.h"
@@ -14,7 +15,7 @@ namespace etendue
 {
 namespace
 {
-const char* const EXAMPLES =
+const char* const REPLAY_EXAMPLES =
     "Examples:\n"
     "  etendue replay scenes/course-box/simple.json --pixel 320,240 --sample 0\n"
     "  etendue replay room.json --pixel 17,4 --sample 93 --seed 7 -D integrator.max_depth=4 --json\n"
@@ -31,16 +32,6 @@ struct ReplayArguments {
     std::uint64_t sample = 0;
     bool as_json = false;
 };
-
-// A word of a shell's command line: quoted where the shell would see more in it.
-std::string shell_word(const std::string& word)
-{
-    const char* const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return quoted + "'";
-}
 
 ReplaySample sample_of(const ReplayArguments& arguments, const FilmDescription& film)
 {
@@ -98,7 +89,7 @@ std::string replay_line(const RenderArguments& a, const Scene& scene, const Repl
 void register_replay(CLI::App& app, std::function<int()>& action)
 {
     CLI::App* command = app.add_subcommand("replay", "Show one path of a render, vertex by vertex");
-    command->footer(EXAMPLES);
+    command->footer(REPLAY_EXAMPLES);
     const auto arguments = std::make_shared<ReplayArguments>();
     command->add_option("--pixel", arguments->pixel, "Pixel of the whole film, from the top left")
         ->type_name("X,Y")

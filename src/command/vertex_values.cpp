@@ -17,24 +17,24 @@ Vec3 xyz(const fp64::real4& v)
 
 std::vector<Quantity> quantities_of(const PathRecord& path, std::size_t i)
 {
-    using Kind = Quantity::Kind;
+    using Of = Quantity::Kind;
     const fp64::PathVertex& v = path.vertices[i];
     const Vec3 before = i == 0 ? Vec3(0.0) : xyz(path.vertices[i - 1].radiance);
     std::vector<Quantity> all;
     if (v.primitive != NO_INDEX)
-        all = {{"distance", Kind::length, Vec3(v.geometric_normal.s[3])},
-               {"position", Kind::place, xyz(v.position)},
-               {"error bound", Kind::length, Vec3(v.position.s[3])},
-               {"geometric normal", Kind::direction, xyz(v.geometric_normal)},
-               {"shading normal", Kind::direction, xyz(v.shading_normal)}};
-    all.push_back({"emission met", Kind::colour, xyz(v.emission) - before});
+        all = {{"distance", Of::length, Vec3(v.geometric_normal.s[3])},
+               {"position", Of::place, xyz(v.position)},
+               {"error bound", Of::length, Vec3(v.position.s[3])},
+               {"geometric normal", Of::direction, xyz(v.geometric_normal)},
+               {"shading normal", Of::direction, xyz(v.shading_normal)}};
+    all.push_back({"emission met", Of::colour, xyz(v.emission) - before});
     if (v.primitive != NO_INDEX) {
-        all.insert(all.end(), {{"light sampled", Kind::colour, xyz(v.radiance) - xyz(v.emission)},
-                               {"next direction", Kind::direction, xyz(v.direction)},
-                               {"its pdf", Kind::number, Vec3(v.shading_normal.s[3])},
-                               {"throughput", Kind::colour, xyz(v.throughput)}});
+        all.insert(all.end(), {{"light sampled", Of::colour, xyz(v.radiance) - xyz(v.emission)},
+                               {"next direction", Of::direction, xyz(v.direction)},
+                               {"its pdf", Of::number, Vec3(v.shading_normal.s[3])},
+                               {"throughput", Of::colour, xyz(v.throughput)}});
     }
-    all.push_back({"radiance", Kind::colour, xyz(v.radiance)});
+    all.push_back({"radiance", Of::colour, xyz(v.radiance)});
     return all;
 }
 

@@ -3,6 +3,8 @@
 
 #include "converge/analysis_json.h"
 #include "converge/errors_csv.h"
+#include "render/report.h"
+#include "util/revision.h"
 
 #include <json/value.h>
 #include <json/writer.h>
@@ -94,6 +96,15 @@ Json::Value build_options_json(const StudiedConfiguration& studied)
     return json;
 }
 
+Json::Value canaries_json(const StudiedConfiguration& studied)
+{
+    Json::Value json(Json::arrayValue);
+    if (studied.runs.empty()) return json;
+    for (const DeviceReport& device : studied.runs.back().measurement.report.devices)
+        json.append(canary_json(device.canary));
+    return json;
+}
+
 Json::Value configuration_json(const StudiedConfiguration& studied, const ConfigurationAnalysis& analysis)
 {
     Json::Value json;
@@ -103,6 +114,7 @@ Json::Value configuration_json(const StudiedConfiguration& studied, const Config
     json["picture_key"] = picture_key(studied.prepared);
     json["devices"] = devices_json(studied);
     json["build_options"] = build_options_json(studied);
+    json["canaries"] = canaries_json(studied);
     if (studied.reference) json["reference"] = reference_json(*studied.reference);
     json["cold_start_seconds"] = start_json(studied.cold);
     json["runs"] = runs_json(studied);
@@ -131,6 +143,7 @@ std::string converge_json(const Study& study, const Analysis& analysis)
     const StudyOptions& options = study.options;
     Json::Value json;
     json["etendue"] = ETENDUE_VERSION;
+    json["revision"] = REVISION;
     json["command"] = options.command;
     json["interrupted"] = study.interrupted;
     json["seconds"] = study.seconds;

@@ -2,6 +2,7 @@
 #include "converge/number_text.h"
 #include "converge/report_tables.h"
 #include "util/html.h"
+#include "util/revision.h"
 
 #include <fmt/format.h>
 
@@ -31,6 +32,16 @@ std::string device_text(const StudiedConfiguration& studied)
     for (const DeviceInfo& device : studied.prepared.options.devices)
         text += (text.empty() ? "" : " + ") + device.name + " (" + device.platform_version + ", driver " +
                 device.driver_version + ")";
+    return text;
+}
+
+std::string canary_text(const StudiedConfiguration& studied)
+{
+    if (studied.runs.empty()) return "not asked";
+    std::string text;
+    for (const DeviceReport& device : studied.runs.back().measurement.report.devices)
+        text += (text.empty() ? "" : "; ") +
+                (device.canary.passed ? std::string("yes, by the canary") : device.canary.complaint());
     return text;
 }
 
@@ -105,6 +116,7 @@ std::string setting_list(const Study& study)
     for (const StudiedConfiguration& studied : study.configurations) {
         list.push_back({"configuration", studied.prepared.configuration.text()});
         list.push_back({"device", device_text(studied)});
+        list.push_back({"strict floating point", canary_text(studied)});
         if (!studied.reference || studied.reference->description == last) continue;
         last = studied.reference->description;
         list.push_back({"reference", reference_text(*studied.reference)});
@@ -113,7 +125,7 @@ std::string setting_list(const Study& study)
     list.push_back({"relative errors", fmt::format("over √(r² + ({:g} × mean r)²)", settings.relative_epsilon)});
     list.push_back({"machine", machine_text(study)});
     list.push_back({"duration", seconds_text(study.seconds)});
-    list.push_back({"etendue", ETENDUE_VERSION});
+    list.push_back({"etendue", fmt::format("{}, revision {}", ETENDUE_VERSION, REVISION)});
     return html_definitions(list);
 }
 } // namespace etendue

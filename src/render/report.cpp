@@ -2,6 +2,7 @@
 #include "render/report.h"
 
 #include "scene/scene_tables.h"
+#include "util/revision.h"
 
 #include <json/json.h>
 
@@ -79,23 +80,6 @@ Json::Value build_json(const BuildReport& build)
     json["source_bytes"] = number(build.source_bytes);
     json["binary_bytes"] = number(build.binary_bytes);
     if (!build.log.empty()) json["log"] = build.log;
-    return json;
-}
-
-Json::Value canary_json(const CanaryReport& canary)
-{
-    Json::Value json;
-    json["passed"] = canary.passed;
-    json["from_cache"] = canary.from_cache;
-    json["seconds"] = canary.seconds;
-    json["findings"] = Json::Value(Json::arrayValue);
-    for (const CanaryFinding& finding : canary.findings) {
-        Json::Value entry;
-        entry["name"] = finding.name;
-        entry["passed"] = finding.passed;
-        entry["detail"] = finding.detail;
-        json["findings"].append(entry);
-    }
     return json;
 }
 
@@ -199,12 +183,30 @@ Json::Value rays_json(const RenderReport& report)
 }
 } // namespace
 
+Json::Value canary_json(const CanaryReport& canary)
+{
+    Json::Value json;
+    json["passed"] = canary.passed;
+    json["from_cache"] = canary.from_cache;
+    json["seconds"] = canary.seconds;
+    json["findings"] = Json::Value(Json::arrayValue);
+    for (const CanaryFinding& finding : canary.findings) {
+        Json::Value entry;
+        entry["name"] = finding.name;
+        entry["passed"] = finding.passed;
+        entry["detail"] = finding.detail;
+        json["findings"].append(entry);
+    }
+    return json;
+}
+
 std::string report_json(const Scene& scene, const Geometry& geometry, const RenderReport& report, const Phases& phases,
                         double relative_error, const std::string& command,
                         const std::optional<ErrorTarget::Report>& target)
 {
     Json::Value json;
     json["etendue"] = ETENDUE_VERSION;
+    json["revision"] = REVISION;
     json["command"] = command;
     json["scene"] = scene_json(scene, geometry);
     json["sampler"] = sampler_name(scene.sampler);
@@ -234,6 +236,7 @@ std::map<std::string, std::string> image_metadata(const Scene& scene, const Rend
 {
     std::map<std::string, std::string> metadata;
     metadata["etendue:version"] = ETENDUE_VERSION;
+    metadata["etendue:revision"] = REVISION;
     metadata["etendue:scene"] = scene.file;
     metadata["etendue:scene_sha256"] = scene.sha256;
     metadata["etendue:sampler"] = sampler_name(scene.sampler);

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include <json/value.h>
+
 namespace etendue
 {
 // Phases of the whole program, in order: name and seconds.
@@ -22,6 +24,9 @@ using Phases = std::vector<std::pair<std::string, double>>;
 std::string report_json(const Scene& scene, const Geometry& geometry, const RenderReport& report, const Phases& phases,
                         double relative_error, const std::string& command,
                         const std::optional<ErrorTarget::Report>& target = {});
+
+// What the canary of a device found, for reports.
+Json::Value canary_json(const CanaryReport& canary);
 
 // What is written into the picture: scene and its hash, seed, spp, device, versions, seconds per phase; "interrupted"
 // when it was.

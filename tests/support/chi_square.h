@@ -1,7 +1,7 @@
-// A chi-square test (check/chi_square.h) as assertions of Catch2.
+// A chi-square test (util/chi_square.h) as assertions of Catch2.
 #pragma once
 
-#include "check/chi_square.h"
+#include "util/chi_square.h"
 
 #include <string>
 #include <vector>

@@ -1,10 +1,17 @@
 // etendue converge as a user calls it.
 #include "command/converge_arguments.h"
 
+#include "support/browser.h"
 #include "support/child_process.h"
 #include "util/error.h"
+#include "util/file.h"
+#include "util/revision.h"
 
 #include <catch2/catch.hpp>
+
+#include <json/json.h>
+
+#include <sstream>
 
 using namespace etendue;
 using Catch::Contains;
@@ -74,15 +81,29 @@ TEST_CASE("command lines that cannot be carried out end with their exit code and
     CHECK_FALSE(std::filesystem::exists(folder.path() / "out" / "report.html"));
 }
 
-TEST_CASE("converge writes its report and says its verdict", "[command][converge]")
+TEST_CASE("converge says its verdict and writes a report that a browser shows as it should be",
+          "[command][converge][browser]")
 {
     const TemporaryFolder folder;
     const std::string out = (folder.path() / "out").string();
     const ChildResult result =
         run_child(ETENDUE, {"converge", SCENE, "--out", out, "--size", "8x8", "--seeds", "2", "--reference", "none",
-                            "--checkpoints", "spp:1:8:x2", "-D", "integrator.max_depth=3"});
+                            "--checkpoints", "spp:1:8:x2", "-D", "integrator.max_depth=3", "--config",
+                            "full:integrator.type=path", "--config", "plain:integrator.type=bsdf"});
     INFO(result.errors);
     CHECK(result.exit_code == 0);
-    CHECK_THAT(result.errors, Contains("default: UNKNOWN"));
-    CHECK(std::filesystem::exists(folder.path() / "out" / "report.html"));
+    CHECK_THAT(result.errors, Contains("full: UNKNOWN") && Contains("plain: UNKNOWN"));
+    check_page(out + "/report.html");
+    // The report says what it was made by, and on what.
+    const std::string page = read_file(out + "/report.html");
+    CHECK_THAT(page, Contains(REVISION) && Contains("yes, by the canary") && Contains("etendue converge " + SCENE));
+    Json::Value json;
+    std::istringstream(read_file(out + "/converge.json")) >> json;
+    CHECK(json["revision"].asString() == REVISION);
+    REQUIRE(json["configurations"].size() == 2);
+    for (const Json::Value& configuration : json["configurations"]) {
+        REQUIRE(configuration["canaries"].size() == 1);
+        CHECK(configuration["canaries"][0]["passed"].asBool());
+        CHECK(configuration["canaries"][0]["findings"].size() > 0);
+    }
 }

@@ -18,20 +18,6 @@
 namespace fs = std::filesystem;
 using namespace etendue;
 
-// OpenImageIO 2.4 loses its message when libpng jumps over it out of a damaged file. The leak check of the address
-// sanitizer asks for this name what it need not report.
-// The library is named, not its function: names of functions need a symbolizer, which a bare system lacks.
-extern "C" const char* __lsan_default_suppressions();
-extern "C" const char* __lsan_default_suppressions()
-{
-    return "leak:libOpenImageIO.so";
-}
-extern "C" const char* __lsan_default_options();
-extern "C" const char* __lsan_default_options()
-{
-    return "print_suppressions=0";
-}
-
 namespace
 {
 // A folder of its own for each test, gone at the end.

@@ -1,5 +1,5 @@
 // Pearson's test with pooling, and its power by the normal approximation of the noncentral distribution.
-#include "check/chi_square.h"
+#include "util/chi_square.h"
 
 #include "util/statistics.h"
 
