@@ -39,6 +39,18 @@ STATIC void sphere_surface(Vec3 centre, Float radius, Ray ray, Hit hit, Vec3* p,
     *p_error = CURVED_POINT_ERROR * (max_component(abs3(centre)) + radius);
 }
 
+/* The direction back, on the side of the sphere on which the ray starts. Along the rim the rounded point's normal does
+ * not know the side, and a path taken for inside there would be reflected totally for ever. */
+STATIC Vec3 sphere_wo(Vec3 centre, Float radius, Ray ray, Hit hit, Vec3 ng, Vec3 wo)
+{
+    Vec3 f = sub3(ray.origin, centre);
+    Mask outside = (ray.from != hit.primitive) & (dot3(f, f) > square(radius));
+    Float facing = dot3(ng, wo);
+    /* Mirror it, and a few roundings more, for its own components are rounded. */
+    Float move = 2.0 * abs_of(facing) + 4.0 * UNIT_ROUNDOFF;
+    return choose3(outside == (facing > 0.0), wo, fma3(ng, outside ? move : -move, wo));
+}
+
 /* Disk: the point is moved onto the plane along its normal. */
 STATIC void disk_surface(Vec3 centre, Vec3 normal, Float radius, Ray ray, Hit hit, Vec3* p, Float* p_error, Vec3* ng,
                          Float* area)
@@ -78,6 +90,7 @@ STATIC Surface make_surface(global const Primitive* primitives, global const Pri
             surface.ng = choose3(is_sphere, ng, surface.ng);
             surface.p_error = is_sphere ? p_error : surface.p_error;
             surface.area = is_sphere ? area : surface.area;
+            surface.wo = choose3(is_sphere, sphere_wo(a, b.x, ray, hit, ng, surface.wo), surface.wo);
         }
     }
     if (HAS_DISK) {

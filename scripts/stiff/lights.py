@@ -164,7 +164,7 @@ def cut_light(columns, rows):
 def cut_lights():
     where = {**FULL, "A": 0.5, "B": 0.5, "F": "4*" + PARALLEL}
     because = "A unit square 1 above the point, cut into triangles of very unequal area: the same light."
-    for columns, rows in ((1, 1), (4, 2), (32, 16)):
+    for columns, rows in ((1, 1), (4, 2), (64, 32)):
         for kind in ("light", "path"):
             block = expect(because, mean("rho*L*F"), where)
             yield f"L7-{2 * columns * rows}-triangles-{kind}", lit_floor(block, kind, 32, [cut_light(columns, rows)], size=10,

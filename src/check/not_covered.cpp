@@ -20,6 +20,7 @@ const Gap GAPS[] = {
     {"L6-duplicate-light-sampling", "two lights in one place: light sampling finds both, directions only the first"},
     {"L10-within-a-ceiling", "surfaces in one plane whose corners differ: which is met depends on rounding"},
     {"M5-shared-face", "of two surfaces of glass in one place only one is crossed; needs priorities of media"},
+    {"S4-visits", "needs a builder by the surface area heuristic to compare visits of nodes with"},
     {"L4-point-and-spot-lights", "needs lights without a surface"},
     {"E1-map-with-one-texel", "needs environment maps"},
     {"E2-map-of-large-contrast", "needs environment maps"},

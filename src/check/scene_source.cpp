@@ -24,12 +24,13 @@ std::string embedded_text(const std::string& file)
 
 SceneSource source_of(const std::filesystem::path& path, bool is_embedded)
 {
-    return {path.stem().string(), path.generic_string(), is_embedded};
+    return {path.stem().string(), path.generic_string(), is_embedded, {}};
 }
 } // namespace
 
 LoadedScene SceneSource::load(const std::vector<std::string>& overrides) const
 {
+    if (text) return parse_scene(*text, file, overrides);
     return is_embedded ? parse_scene(embedded_text(file), file, overrides) : load_scene(file, overrides);
 }
 

@@ -5,6 +5,7 @@
 #include "util/embedded_file.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@ namespace etendue
 const std::vector<EmbeddedFile>& embedded_stiff_scenes();
 
 struct SceneSource {
-    std::string name;         // without folder and extension: "F1-albedo-0.8-depth-8"
-    std::string file;         // what messages call it
-    bool is_embedded = false; // in the executable; so are its neighbours
+    std::string name;                // without folder and extension: "F1-albedo-0.8-depth-8"
+    std::string file;                // what messages call it
+    bool is_embedded = false;        // in the executable; so are its neighbours
+    std::optional<std::string> text; // what the file would hold, where there is none
 
     LoadedScene load(const std::vector<std::string>& overrides = {}) const;
     // Another one, by its file's name.

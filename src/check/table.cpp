@@ -71,8 +71,8 @@ std::string table_summary(const RunResult& run, const Family& family)
                                    run.count(Verdict::passed), run.count(Verdict::failed),
                                    run.count(Verdict::underpowered), run.count(Verdict::not_covered), run.seconds);
     if (!run.not_run.empty())
-        text += fmt::format("; {} checks were not run for want of time, the first is {}", run.not_run.size(),
-                            run.not_run.front());
+        text += fmt::format("; {} checks were not run {}, the first is {}", run.not_run.size(),
+                            run.interrupted ? "because of the interrupt" : "for want of time", run.not_run.front());
     if (family.tests > 0)
         text += fmt::format("\n{} statistical tests are a family of level {:.2g}: each has |z| <= {:.2f} (p >= {:.1e})",
                             family.tests, family.alpha, family.critical_z, family.test_alpha);

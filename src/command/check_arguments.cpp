@@ -4,6 +4,7 @@
 #include "check/bsdf_checks.h"
 #include "check/bvh_checks.h"
 #include "check/device_checks.h"
+#include "check/large_scene_checks.h"
 #include "check/light_checks.h"
 #include "check/not_covered.h"
 #include "check/sampling_checks.h"
@@ -37,6 +38,7 @@ const std::vector<CheckList>& check_lists()
 {
     static const std::vector<CheckList> lists{
         {{"analytic", "stiff"}, stiff_scene_checks},
+        {{"analytic", "stiff"}, large_scene_checks},
         {{"bsdf"}, bsdf_checks},
         {{"sampling"}, sampling_checks},
         {{"sampling"}, light_checks},

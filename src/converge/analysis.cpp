@@ -49,7 +49,15 @@ Interval crossing_band(const RunCurve& runs, const std::vector<Draw>& draws, con
         const Crossing crossing = find_crossing(seconds, runs.mean(draw, target.metric), target.value);
         return crossing.kind == Crossing::Kind::not_reached ? std::numeric_limits<double>::quiet_NaN() : crossing.x;
     };
-    return bootstrap_interval(time, draws);
+    return bootstrap_ratio_interval(time, draws);
+}
+
+// Where the last checkpoints say nothing, nor does a target that was not reached before.
+Crossing known_crossing(Crossing crossing, const RunCurve& runs)
+{
+    const bool ends_early = runs.points() > 0 && !runs.usable(runs.points() - 1);
+    if (crossing.kind == Crossing::Kind::not_reached && ends_early) crossing.kind = Crossing::Kind::unknown;
+    return crossing;
 }
 
 TargetTime target_time(const RunCurve& runs, const std::vector<Draw>& draws, const Target& target, double start)
@@ -59,10 +67,10 @@ TargetTime target_time(const RunCurve& runs, const std::vector<Draw>& draws, con
     const Draw all = everyone(runs.runs());
     std::vector<double> seconds = runs.mean_seconds(all);
     const std::vector<double> errors = runs.mean(all, target.metric);
-    time.render = find_crossing(seconds, errors, target.value);
+    time.render = known_crossing(find_crossing(seconds, errors, target.value), runs);
     time.render_band = crossing_band(runs, draws, target, 0.0);
     for (double& t : seconds) t += start;
-    time.total = find_crossing(seconds, errors, target.value);
+    time.total = known_crossing(find_crossing(seconds, errors, target.value), runs);
     time.total_band = crossing_band(runs, draws, target, start);
     return time;
 }
@@ -99,10 +107,10 @@ std::vector<CalibrationRow> calibrate(const RunCurve& runs)
     return rows;
 }
 
-// The power law through the mean curve, and through those of drawn seeds.
+// The floor under the mean curve, and under those of drawn seeds.
 struct DrawnFits {
     FloorFit all;
-    std::vector<double> exponents, floors;
+    std::vector<double> floors;
 };
 
 DrawnFits fit_draws(const RunCurve& runs, const std::vector<Draw>& draws)
@@ -110,11 +118,7 @@ DrawnFits fit_draws(const RunCurve& runs, const std::vector<Draw>& draws)
     const auto fit = [&](const Draw& draw) { return fit_floor(runs.mean_samples(draw), runs.mean(draw, "mse")); };
     DrawnFits fits;
     fits.all = fit(everyone(runs.runs()));
-    for (const Draw& draw : draws) {
-        const FloorFit drawn = fit(draw);
-        fits.exponents.push_back(drawn.p);
-        fits.floors.push_back(drawn.b);
-    }
+    for (const Draw& draw : draws) fits.floors.push_back(fit(draw).b);
     return fits;
 }
 
@@ -139,11 +143,13 @@ BiasEvidence evidence_of(const StudiedConfiguration& studied, const Configuratio
     evidence.width = studied.prepared.scene.film.width;
     evidence.height = studied.prepared.scene.film.height;
     evidence.pool = &studied.pool;
-    evidence.slope = analysis.slope_samples;
     evidence.independent_samples = studied.prepared.scene.sampler.type == SamplerType::independent;
     for (const CurvePoint& point : analysis.curve)
-        evidence.largest_mse = std::max(evidence.largest_mse, point.mse.estimate);
+        if (point.usable) evidence.last_mse = point.mse.estimate;
     for (const Run& run : studied.runs) {
+        for (const ErrorRow& row : run.rows)
+            evidence.largest_mse = std::isnan(row.metrics.mse) ? std::numeric_limits<double>::infinity()
+                                                               : std::max(evidence.largest_mse, row.metrics.mse);
         if (run.measurement.complete) {
             evidence.picture_means.push_back(run.picture_mean);
             evidence.picture_variances.push_back(run.picture_variance);
@@ -168,9 +174,8 @@ ConfigurationAnalysis analyse_configuration(const StudiedConfiguration& studied,
     analysis.slope_samples = mean_interval(runs.slopes(false));
     analysis.slope_seconds = mean_interval(runs.slopes(true));
     analysis.fit = fits.all;
-    analysis.exponent = bootstrap_t_interval(fits.all.p, fits.exponents, runs.runs(), 0.95);
     analysis.floor = bootstrap_t_interval(fits.all.b, fits.floors, runs.runs(), 0.95, floor_error);
-    analysis.efficiency = bootstrap_interval([&](const Draw& draw) { return runs.efficiency(draw); }, draws);
+    analysis.efficiency = bootstrap_ratio_interval([&](const Draw& draw) { return runs.efficiency(draw); }, draws);
     for (const Target& target : options.targets)
         analysis.targets.push_back(target_time(runs, draws, target, studied.cold.total()));
     analysis.top_share = analysis.curve.back().top_share;
@@ -178,6 +183,7 @@ ConfigurationAnalysis analyse_configuration(const StudiedConfiguration& studied,
     set_variance_of_mean(analysis, studied);
     BiasEvidence evidence = evidence_of(studied, analysis);
     evidence.floor = bootstrap_t_interval(fits.all.b, fits.floors, runs.runs(), 1.0 - levels.test_alpha, floor_error);
+    evidence.slope = mean_interval(runs.slopes(false), 1.0 - levels.test_alpha);
     analysis.verdict = judge_bias(evidence, levels);
     return analysis;
 }

@@ -50,7 +50,7 @@ struct ConfigurationAnalysis {
     std::vector<CurvePoint> curve;
     Interval slope_samples, slope_seconds;
     FloorFit fit;
-    Interval floor, exponent; // 95 %
+    Interval floor; // b of the fit; 95 %
     std::vector<TargetTime> targets;
     Interval efficiency; // 1 / (MSE * render seconds) at the last usable checkpoint
     double top_share = 0.0;

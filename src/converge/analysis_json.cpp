@@ -18,10 +18,13 @@ Json::Value interval_json(const Interval& interval)
 
 Json::Value crossing_json(const Crossing& crossing, const Interval& band)
 {
-    static const char* const kinds[] = {"before the first checkpoint", "reached", "not reached"};
+    static const char* const kinds[] = {"before the first checkpoint", "reached", "not reached",
+                                        "unknown: too near to the reference's own error"};
     Json::Value json;
     json["state"] = kinds[static_cast<int>(crossing.kind)];
-    json["seconds"] = crossing.kind == Crossing::Kind::not_reached ? Json::Value() : json_number(crossing.x);
+    json["seconds"] = crossing.kind == Crossing::Kind::at || crossing.kind == Crossing::Kind::before_first
+                          ? json_number(crossing.x)
+                          : Json::Value();
     json["low"] = json_number(band.low);
     json["high"] = json_number(band.high);
     return json;
@@ -116,7 +119,6 @@ void set_analysis(Json::Value& json, const ConfigurationAnalysis& analysis)
     json["slope"]["on_spp"] = interval_json(analysis.slope_samples);
     json["slope"]["on_render_seconds"] = interval_json(analysis.slope_seconds);
     json["fit"]["a"] = json_number(analysis.fit.a);
-    json["fit"]["p"] = interval_json(analysis.exponent);
     json["fit"]["b"] = interval_json(analysis.floor);
     json["targets"] = targets_json(analysis.targets);
     json["efficiency"] = interval_json(analysis.efficiency);

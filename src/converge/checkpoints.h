@@ -32,6 +32,8 @@ public:
     // Whether this is the first end at or after some checkpoint.
     bool due(std::uint64_t samples, double seconds);
     bool finished() const { return next_ == values_.size(); }
+    // The number of the last one passed, from 0.
+    std::size_t passed() const { return next_ - 1; }
 
 private:
     Checkpoints::Axis axis_;

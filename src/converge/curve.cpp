@@ -5,10 +5,27 @@
 #include "converge/fit.h"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
 namespace etendue
 {
+namespace
+{
+// Indices of each run's rows at the checkpoints of which every run has one. Rows are in the order of their checkpoints.
+std::vector<std::vector<std::size_t>> common_rows(const std::vector<const Run*>& runs)
+{
+    std::map<std::size_t, std::size_t> counts;
+    for (const Run* run : runs)
+        for (const ErrorRow& row : run->rows) ++counts[row.checkpoint];
+    std::vector<std::vector<std::size_t>> common(runs.size());
+    for (std::size_t r = 0; r < runs.size(); ++r)
+        for (std::size_t k = 0; k < runs[r]->rows.size(); ++k)
+            if (counts[runs[r]->rows[k].checkpoint] == runs.size()) common[r].push_back(k);
+    return common;
+}
+} // namespace
+
 const std::vector<std::string>& error_names()
 {
     static const std::vector<std::string> names{"mse", "relmse", "mape", "max_relative", "trimmed_relmse"};
@@ -27,14 +44,14 @@ double metric_of(const ErrorRow& row, const std::string& metric)
 RunCurve::RunCurve(std::vector<const Run*> runs, double floor) : runs_(std::move(runs))
 {
     if (runs_.empty()) return;
-    points_ = runs_.front()->rows.size();
-    for (const Run* run : runs_) points_ = std::min(points_, run->rows.size());
+    rows_ = common_rows(runs_);
+    points_ = rows_.front().size();
     for (std::size_t k = 0; k < points_; ++k) {
-        double measured = 0.0, corrected = 0.0, worst = runs_.front()->rows[k].mse;
-        for (const Run* run : runs_) {
-            measured += run->rows[k].metrics.mse / static_cast<double>(runs_.size());
-            corrected += run->rows[k].mse;
-            worst = std::min(worst, run->rows[k].mse);
+        double measured = 0.0, corrected = 0.0, worst = row(0, k).mse;
+        for (std::size_t run = 0; run < runs_.size(); ++run) {
+            measured += row(run, k).metrics.mse / static_cast<double>(runs_.size());
+            corrected += row(run, k).mse;
+            worst = std::min(worst, row(run, k).mse);
         }
         usable_.push_back(measured >= FLOOR_MULTIPLE * floor && corrected > 0.0 && worst > 0.0);
     }
@@ -90,7 +107,7 @@ double RunCurve::efficiency(const Draw& draw) const
 std::vector<double> RunCurve::values(std::size_t point, const std::string& metric) const
 {
     std::vector<double> values;
-    for (const Run* run : runs_) values.push_back(metric_of(run->rows[point], metric));
+    for (std::size_t run = 0; run < runs_.size(); ++run) values.push_back(metric_of(row(run, point), metric));
     return values;
 }
 

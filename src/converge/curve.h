@@ -14,7 +14,8 @@ double metric_of(const ErrorRow& row, const std::string& metric);
 // Those that fall with the samples.
 const std::vector<std::string>& error_names();
 
-// The rows that all runs have, at which the reference's floor does not show; the means of drawn runs.
+// The checkpoints of which all runs have a row, those at which the reference's floor does not show, the means of drawn
+// runs.
 class RunCurve
 {
 public:
@@ -28,7 +29,7 @@ public:
     // The last usable point; points() where there is none.
     std::size_t last_usable() const;
 
-    const ErrorRow& row(std::size_t run, std::size_t point) const { return runs_[run]->rows[point]; }
+    const ErrorRow& row(std::size_t run, std::size_t point) const { return runs_[run]->rows[rows_[run][point]]; }
 
     // Means over the drawn runs at each usable point.
     std::vector<double> mean(const Draw& draw, const std::string& metric) const;
@@ -47,6 +48,7 @@ private:
     std::vector<double> means(const Draw& draw, Value value) const;
 
     std::vector<const Run*> runs_;
+    std::vector<std::vector<std::size_t>> rows_; // [run][point]
     std::size_t points_ = 0;
     std::vector<bool> usable_;
 };

@@ -32,6 +32,7 @@ double relative_floor(const Reference& reference, const MetricSettings& settings
 ErrorRow bare_row(const Snapshot& snapshot)
 {
     ErrorRow row;
+    row.checkpoint = snapshot.checkpoint;
     row.samples = snapshot.samples;
     row.render_seconds = snapshot.render_seconds;
     row.kernel_seconds = snapshot.kernel_seconds;
@@ -57,24 +58,27 @@ ErrorRow error_row(const Snapshot& snapshot, const Reference& reference, double 
 void set_errors_between_seeds(std::vector<Run>& runs, const std::vector<std::vector<Pixels>>& pictures,
                               const MetricSettings& settings)
 {
-    std::size_t most = 0;
-    for (const Run& run : runs) most = std::max(most, run.rows.size());
-    for (std::size_t k = 0; k < most; ++k) {
+    std::size_t checkpoints = 0;
+    for (const Run& run : runs)
+        for (const ErrorRow& row : run.rows) checkpoints = std::max(checkpoints, row.checkpoint + 1);
+    for (std::size_t checkpoint = 0; checkpoint < checkpoints; ++checkpoint) {
         PixelPool pool;
-        for (const auto& of_run : pictures)
-            if (k < of_run.size()) pool.add(of_run[k]);
+        for (std::size_t r = 0; r < runs.size(); ++r)
+            for (std::size_t k = 0; k < runs[r].rows.size(); ++k)
+                if (runs[r].rows[k].checkpoint == checkpoint) pool.add(pictures[r][k]);
         const Pixels mean = pool.mean();
         const double n = static_cast<double>(pool.count());
         const double unbiased = n > 1 ? n / (n - 1) : std::nan("");
-        for (std::size_t r = 0; r < runs.size(); ++r) {
-            if (k >= runs[r].rows.size()) continue;
-            ErrorRow& row = runs[r].rows[k];
-            row.metrics = compare_pictures(pictures[r][k], mean, settings);
-            row.metrics.mse *= unbiased;
-            row.metrics.relmse *= unbiased;
-            row.mse = row.metrics.mse;
-            row.relmse = row.metrics.relmse;
-        }
+        for (std::size_t r = 0; r < runs.size(); ++r)
+            for (std::size_t k = 0; k < runs[r].rows.size(); ++k) {
+                ErrorRow& row = runs[r].rows[k];
+                if (row.checkpoint != checkpoint) continue;
+                row.metrics = compare_pictures(pictures[r][k], mean, settings);
+                row.metrics.mse *= unbiased;
+                row.metrics.relmse *= unbiased;
+                row.mse = row.metrics.mse;
+                row.relmse = row.metrics.relmse;
+            }
     }
 }
 } // namespace etendue

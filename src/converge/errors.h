@@ -11,7 +11,8 @@
 namespace etendue
 {
 struct ErrorRow {
-    std::uint64_t samples = 0; // per pixel
+    std::size_t checkpoint = 0; // its number, by which the rows of different runs belong together
+    std::uint64_t samples = 0;  // per pixel
     double render_seconds = 0.0, kernel_seconds = 0.0;
     std::uint64_t rays = 0;
     Metrics metrics;         // as measured, with the reference's own variance in them

@@ -49,28 +49,6 @@ std::vector<Draw> bootstrap_draws(std::size_t replicates, std::size_t count, std
     return draws;
 }
 
-Interval bootstrap_interval(const Statistic& statistic, const std::vector<Draw>& draws, double level)
-{
-    if (draws.empty() || draws.front().empty()) return {};
-    const double estimate = statistic(everyone(draws.front().size()));
-    if (draws.front().size() == 1) return {estimate, -UNBOUNDED, UNBOUNDED};
-    std::vector<double> values;
-    std::size_t unknown = 0;
-    for (const Draw& draw : draws) {
-        const double value = statistic(draw);
-        if (std::isnan(value))
-            ++unknown;
-        else
-            values.push_back(value);
-    }
-    std::sort(values.begin(), values.end());
-    // Ranks from both ends; what is unknown counts as beyond either.
-    const double tail = (1.0 - level) / 2 * static_cast<double>(draws.size()) - static_cast<double>(unknown);
-    if (tail < 1.0 || values.empty()) return {estimate, -UNBOUNDED, UNBOUNDED};
-    const auto rank = std::min(static_cast<std::size_t>(tail) - 1, values.size() - 1);
-    return {estimate, values[rank], values[values.size() - 1 - rank]};
-}
-
 Interval bootstrap_t_interval(double estimate, const std::vector<double>& values, std::size_t replicates, double level,
                               double further_error)
 {
@@ -83,6 +61,28 @@ Interval bootstrap_t_interval(double estimate, const std::vector<double>& values
     if (!std::isfinite(error)) return {estimate, -UNBOUNDED, UNBOUNDED};
     const double half = student_t_quantile(0.5 + level / 2, count - 1) * error;
     return {estimate, estimate - half, estimate + half};
+}
+
+Interval bootstrap_ratio_interval(const Statistic& statistic, const std::vector<Draw>& draws, double level)
+{
+    if (draws.empty() || draws.front().empty()) return {};
+    const std::size_t replicates = draws.front().size();
+    const double estimate = statistic(everyone(replicates));
+    if (!(estimate > 0.0 && std::isfinite(estimate))) return {estimate, -UNBOUNDED, UNBOUNDED};
+    std::vector<double> logarithms;
+    std::size_t unknown = 0;
+    for (const Draw& draw : draws) {
+        const double value = statistic(draw);
+        if (value > 0.0 && std::isfinite(value))
+            logarithms.push_back(std::log(value));
+        else
+            ++unknown;
+    }
+    // What is unknown could be anywhere.
+    if (static_cast<double>(unknown) > (1.0 - level) / 2 * static_cast<double>(draws.size()))
+        return {estimate, -UNBOUNDED, UNBOUNDED};
+    const Interval interval = bootstrap_t_interval(std::log(estimate), logarithms, replicates, level);
+    return {estimate, std::exp(interval.low), std::exp(interval.high)};
 }
 
 double quantile(std::vector<double> values, double share)

@@ -31,9 +31,10 @@ std::vector<Draw> bootstrap_draws(std::size_t replicates, std::size_t count, std
 // A statistic of replicates, given by their numbers.
 using Statistic = std::function<double(const Draw&)>;
 
-// The statistic of all replicates with its percentile bootstrap interval (Efron 1979). Draws where it is not finite are
-// put at whichever end widens the interval.
-Interval bootstrap_interval(const Statistic& statistic, const std::vector<Draw>& draws, double level = 0.95);
+// A statistic above 0 of all replicates, with an interval by Student's quantile times the spread of its logarithm over
+// draws (as bootstrap_t_interval): percentiles of a few seeds are too narrow. It reaches everywhere when more draws
+// than one end may miss have no such value.
+Interval bootstrap_ratio_interval(const Statistic& statistic, const std::vector<Draw>& draws, double level = 0.95);
 
 // An interval from a statistic of all replicates and its values for draws, by Student's quantile times the standard
 // deviation of the values, widened by sqrt(R / (R - 1)): of few replicates percentiles are too narrow, and far levels

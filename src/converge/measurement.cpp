@@ -60,7 +60,7 @@ Measurement measure(const PreparedConfiguration& prepared, const MeasurementOpti
         seconds = end.render_seconds;
         if (!clock.due(end.samples_per_pixel, end.render_seconds)) return true;
         const Stopwatch watch;
-        options.look({end.samples_per_pixel, end.render_seconds, end.kernel_seconds, end.rays,
+        options.look({clock.passed(), end.samples_per_pixel, end.render_seconds, end.kernel_seconds, end.rays,
                       renderer.report().accidents(), film.relative_error(), pixels_of(film)});
         measurement.look_seconds += watch.seconds();
         measurement.render_seconds = end.render_seconds;

@@ -28,6 +28,7 @@ struct StartSeconds {
 
 // The film at a checkpoint.
 struct Snapshot {
+    std::size_t checkpoint = 0;  // its number; where one look serves several, the last
     std::uint64_t samples = 0;   // per pixel
     double render_seconds = 0.0; // since the render began; looking at it does not count
     double kernel_seconds = 0.0; // by the devices' own clocks

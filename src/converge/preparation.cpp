@@ -1,6 +1,7 @@
 // From a configuration to what a Renderer is made of.
 #include "converge/preparation.h"
 
+#include "compute/kernel_source.h"
 #include "render/render_settings.h"
 #include "util/sha256.h"
 #include "util/stopwatch.h"
@@ -76,8 +77,8 @@ std::string picture_key(const PreparedConfiguration& prepared)
     const Scene& scene = prepared.scene;
     const Vec3& centre = geometry.normalisation.centre;
     const std::string numbers = fmt::format(
-        "{} {}x{} {} {} {} {} {} {} {} {}", ETENDUE_VERSION, scene.film.width, scene.film.height,
-        static_cast<int>(scene.film.filter), scene.film.filter_radius, scene.film.filter_sigma,
+        "{} {}x{} {} {} {} {} {} {} {} {}", sha256(expand_program("path_megakernel.cl")), scene.film.width,
+        scene.film.height, static_cast<int>(scene.film.filter), scene.film.filter_radius, scene.film.filter_sigma,
         scene.integrator.max_depth.value_or(NO_INDEX), centre.x, centre.y, centre.z, geometry.normalisation.scale);
     return sha256(numbers + bytes_of(geometry.primitives) + bytes_of(geometry.surfaces) + bytes_of(geometry.normals) +
                   bytes_of(geometry.materials) + bytes_of(geometry.parameters) + bytes_of(geometry.lights) +

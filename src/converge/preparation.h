@@ -42,6 +42,7 @@ PreparedConfiguration prepare(const Configuration& configuration, const Preparat
 FilmSize limited_size(const FilmDescription& film, int longest_edge);
 
 // What the pictures of two prepared configurations must have in common to converge to the same: all but how light is
-// gathered. A SHA-256 of geometry, materials, lights, camera, film and the limit of the depth.
+// gathered. A SHA-256 of kernels, geometry, materials, lights, camera, film and the limit of the depth: a
+// reference that is kept is one of these very kernels.
 std::string picture_key(const PreparedConfiguration& prepared);
 } // namespace etendue

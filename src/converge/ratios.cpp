@@ -37,7 +37,7 @@ Ratio ratio_of(const ConfigurationAnalysis& a, const ConfigurationAnalysis& b, c
     if (seeds == 0) return ratio;
     const std::vector<Draw> draws = bootstrap_draws(seeds, options.draws);
     if (!slopes_differ(a.slope_samples, b.slope_samples)) {
-        ratio.value = bootstrap_interval(
+        ratio.value = bootstrap_ratio_interval(
             [&](const Draw& draw) { return curve_a.efficiency(draw) / curve_b.efficiency(draw); }, draws);
         return ratio;
     }
@@ -46,7 +46,7 @@ Ratio ratio_of(const ConfigurationAnalysis& a, const ConfigurationAnalysis& b, c
     const auto times = [&](const Draw& draw) {
         return seconds_to(curve_b, draw, *ratio.target) / seconds_to(curve_a, draw, *ratio.target);
     };
-    ratio.value = bootstrap_interval(times, draws);
+    ratio.value = bootstrap_ratio_interval(times, draws);
     return ratio;
 }
 } // namespace

@@ -36,6 +36,21 @@ Pixels channels_of(const Image& image, const std::string& prefix)
         }
     return pixels;
 }
+
+bool contains_word(const std::string& words, const std::string& word)
+{
+    return (' ' + words + ' ').find(' ' + word + ' ') != std::string::npos;
+}
+
+void check_finite(const Pixels& pixels, int width, const std::string& path, const char* what)
+{
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            if (!std::isfinite(pixels[i][c]))
+                throw UsageError(fmt::format("The reference {} is of no use: its {} at pixel {},{} is {}.", path, what,
+                                             i % static_cast<std::size_t>(width), i / static_cast<std::size_t>(width),
+                                             pixels[i][c]));
+}
 } // namespace
 
 void set_floor(Reference& reference, double replicates)
@@ -85,21 +100,25 @@ Reference file_reference(const std::string& path, const FilmSize& size, std::uin
     if (image.width != size.width || image.height != size.height)
         throw UsageError(fmt::format("The reference {} has {}x{} pixels, the study {}x{}: give --size {}x{}.", path,
                                      image.width, image.height, size.width, size.height, image.width, image.height));
-    const std::string seed = attribute(image, "etendue:seed");
+    // A picture of one seed, or the mean over those of a study.
+    const std::string seed = attribute(image, "etendue:seed"), study_seeds = attribute(image, "etendue:seeds");
     for (std::uint64_t s = first_seed; s < first_seed + seeds; ++s)
-        if (seed == std::to_string(s))
+        if (seed == std::to_string(s) || contains_word(study_seeds, std::to_string(s)))
             throw UsageError(fmt::format("The reference {} was rendered with seed {}, which the study uses too: what "
                                          "shares random numbers looks better than it is. Choose another --seed.",
                                          path, s));
     Reference reference;
     reference.kind = Reference::Kind::file;
     reference.mean = channels_of(image, "");
+    check_finite(reference.mean, size.width, path, "value");
     reference.variance.assign(reference.mean.size(), Vec3(0.0));
     if (has_channel(image, "stderr.R")) {
         reference.variance = channels_of(image, "stderr.");
         for (Vec3& v : reference.variance) v *= v;
+        check_finite(reference.variance, size.width, path, "standard error");
         reference.description = fmt::format("the file {}, its variance by its channels stderr.R/G/B", path);
     } else {
+        reference.knows_error = false;
         reference.description = fmt::format("the file {}, whose own error is not known", path);
         reference.warnings.push_back(
             fmt::format("{} has no channels stderr.R/G/B: its own error is taken for none and not subtracted.", path));

@@ -27,6 +27,7 @@ struct Reference {
     Pixels mean;
     Pixels variance;                                          // of each mean; zero where it is exact or unknown
     double degrees = std::numeric_limits<double>::infinity(); // of the variance of one pixel
+    bool knows_error = true;                                  // of a file: its variance is there
     double floor = 0.0;                                       // mean variance: what every measured MSE has too much
     double floor_error = 0.0; // standard deviation of what stays when the floor is subtracted
     double replicate_ratio = std::numeric_limits<double>::quiet_NaN(); // floor by replicates over floor by the films
@@ -50,7 +51,8 @@ Reference analytic_reference(const Vec3& radiance, int width, int height, const 
 std::optional<Vec3> expected_radiance(const Scene& scene, bool mean_too);
 
 // A picture file; its variance from the channels stderr.R/G/B. Throws FileError, and UsageError where its size is not
-// that of the film or its random numbers are those of the study: seeds [first_seed, first_seed + seeds).
+// that of the film, a value or a standard error is not finite, or its random numbers are those of the study: seeds
+// [first_seed, first_seed + seeds).
 Reference file_reference(const std::string& path, const FilmSize& size, std::uint64_t first_seed, std::uint64_t seeds);
 
 struct IndependentOptions {

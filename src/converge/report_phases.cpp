@@ -47,6 +47,7 @@ std::string canary_text(const StudiedConfiguration& studied)
 
 std::string reference_text(const Reference& reference)
 {
+    if (reference.kind == Reference::Kind::none || !reference.knows_error) return reference.description + ".";
     return fmt::format("{}{}. Its variance is {}, known to ±{}.", reference.description,
                        reference.from_cache ? ", kept from an earlier study" : "", short_text(reference.floor),
                        short_text(reference.floor_error));

@@ -33,6 +33,8 @@ std::string crossing_cell(const Crossing& crossing, const Interval& band)
         return "< " + seconds_text(crossing.x);
     case Crossing::Kind::not_reached:
         return "not reached";
+    case Crossing::Kind::unknown:
+        return "unknown: in the grey";
     case Crossing::Kind::at:
         break;
     }
@@ -72,15 +74,16 @@ std::string fit_table(const Analysis& analysis)
 {
     Rows rows;
     for (const auto& c : analysis.configurations)
-        rows.push_back({c.name, interval_text(c.slope_samples), interval_text(c.slope_seconds),
-                        interval_text(c.exponent), interval_text(c.floor), interval_text(c.efficiency),
-                        percent_text(c.top_share), short_text(c.variance_of_mean / c.variance_of_mean_by_film)});
+        rows.push_back({c.name, interval_text(c.slope_samples), interval_text(c.slope_seconds), interval_text(c.floor),
+                        interval_text(c.efficiency), percent_text(c.top_share),
+                        short_text(c.variance_of_mean / c.variance_of_mean_by_film)});
     return html_paragraph("Slopes of log₂ MSE, each seed by itself: −1 on samples where they are independent; seconds "
-                          "hold the overhead of short launches too. p and b: MSE = a N⁻ᵖ + b. Efficiency: 1 / (MSE × "
+                          "hold the overhead of short launches too. b: MSE = a / N + b over the last samples, above 0 "
+                          "where a floor is. Efficiency: 1 / (MSE × "
                           "seconds). Fireflies: share of the MSE in the worst 0.1 % of the pixels. Spread of the mean: "
                           "its variance between seeds over the films' estimate, 1 where pixels are independent.") +
            html_table("95 % intervals over the seeds",
-                      {"configuration", "slope on samples", "slope on seconds", "p", "b", "efficiency", "fireflies",
+                      {"configuration", "slope on samples", "slope on seconds", "b", "efficiency", "fireflies",
                        "spread of the mean"},
                       rows);
 }
@@ -96,9 +99,10 @@ std::string verdict_table(const Analysis& analysis)
                         short_text(v.z), short_text(v.critical), percent_text(v.detectable_bias)});
     }
     return html_paragraph(
-               fmt::format("Each test is at the level {:.2g}, the interval of b too, so that all together are wrong "
+               fmt::format("Each test is at the level {:.2g}, b and the slope too, so that all together are wrong "
                            "once in a thousand studies. Tiles: whether Welch's p-values have too many small ones, and "
-                           "whether they are uniform at all. z: of the picture's mean, the worst channel.",
+                           "whether they are uniform at all; no tile may be too far off by itself either. z: of the "
+                           "picture's mean, the worst channel.",
                            analysis.test_alpha)) +
            html_table("Three parts, all of which must pass",
                       {"configuration", "floor b", "tiles, p", "uniform, p", "worst tile z", "mean", "z", "allowed",

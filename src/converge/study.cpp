@@ -119,16 +119,33 @@ private:
         }
         if (options.reference == "auto" || options.reference == "analytic") {
             const bool mean_too = options.reference == "analytic";
-            if (const auto radiance = expected_radiance(scene, mean_too))
+            const auto radiance = expected_radiance(scene, mean_too);
+            if (radiance && is_as_written(group.front()->prepared))
                 return analytic_reference(*radiance, size.width, size.height,
                                           fmt::format("analytic: the scene expects the radiance {:.9g}, {:.9g}, {:.9g}",
                                                       radiance->x, radiance->y, radiance->z));
+            if (mean_too && radiance)
+                throw UsageError(scene.file +
+                                 ": what the scene expects is not for a picture changed by -D or --config, "
+                                 "so there is no analytic reference.");
             if (mean_too)
                 throw UsageError(scene.file + ": the scene does not say what its picture must be (no fact about pixels "
                                               "or mean in \"expect\"), so there is no analytic reference.");
             return rendered_reference(group);
         }
         return file_reference(options.reference, size, options.first_seed, options.seeds);
+    }
+
+    // Whether the picture is that of the scene without the changes of -D and of the configuration: only for that one
+    // holds what the scene expects.
+    bool is_as_written(const PreparedConfiguration& prepared) const
+    {
+        PreparationOptions options = study_.options.preparation;
+        options.overrides.clear();
+        options.size = FilmSize{prepared.scene.film.width, prepared.scene.film.height};
+        Configuration unchanged;
+        unchanged.name = "as written";
+        return picture_key(prepare(unchanged, options)) == picture_key(prepared);
     }
 
     std::optional<Reference> rendered_reference(const std::vector<StudiedConfiguration*>& group)

@@ -85,12 +85,27 @@ std::vector<HtmlPicture> study_pictures(const StudiedConfiguration& studied)
     return pictures;
 }
 
+namespace
+{
+// For those who take the mean for a reference: "1 2 3".
+std::string seeds_text(const Study& study)
+{
+    std::string text;
+    for (std::uint64_t s = 0; s < study.options.seeds; ++s)
+        text += (s == 0 ? "" : " ") + std::to_string(study.options.first_seed + s);
+    return text;
+}
+} // namespace
+
 void write_study_images(const Study& study, const std::string& folder)
 {
     for (const StudiedConfiguration& studied : study.configurations) {
         const std::string stem = (std::filesystem::path(folder) / studied.prepared.configuration.name).string();
-        if (studied.pool.count() > 0)
-            write_image(film_image(studied, studied.pool.mean(), studied.pool.variance_of_mean()), stem + ".exr");
+        if (studied.pool.count() > 0) {
+            Image mean = film_image(studied, studied.pool.mean(), studied.pool.variance_of_mean());
+            mean.metadata["etendue:seeds"] = seeds_text(study);
+            write_image(mean, stem + ".exr");
+        }
         if (studied.reference && studied.reference->kind != Reference::Kind::none)
             write_image(film_image(studied, studied.reference->mean, studied.reference->variance),
                         stem + "_reference.exr");

@@ -48,28 +48,40 @@ bool has_exact_difference(const WelchTiles& tiles)
     return false;
 }
 
+// Errors that fall faster than 1 / N have a fitted floor below zero.
+bool has_floor(const BiasEvidence& evidence)
+{
+    return evidence.floor.known() && evidence.floor.low > 0.0;
+}
+
 void judge_floor(BiasVerdict& verdict, const BiasEvidence& evidence)
 {
     verdict.floor = evidence.floor;
-    verdict.floor_passed = evidence.floor.contains(0.0) && std::isfinite(evidence.floor.high);
-    if (evidence.floor.known() && !evidence.floor.contains(0.0))
+    verdict.floor_passed =
+        evidence.floor.known() && evidence.floor.low <= 0.0 && evidence.floor.high <= FLOOR_POWER * evidence.last_mse;
+    if (has_floor(evidence))
         verdict.reasons.push_back(
-            fmt::format("The errors do not fall to zero: MSE = a N^-p + b has b = {:.3g}, between {:.3g} and {:.3g}.",
+            fmt::format("The errors do not fall to zero: MSE = a / N + b has b = {:.3g}, between {:.3g} and {:.3g}.",
                         evidence.floor.estimate, evidence.floor.low, evidence.floor.high));
     else if (!verdict.floor_passed)
-        verdict.reasons.emplace_back("The floor under the errors is not determined: it takes at least four usable "
-                                     "checkpoints and two seeds.");
+        verdict.reasons.push_back(
+            fmt::format("A floor {:g} times the last error could hide under the errors: that takes at least three "
+                        "checkpoints above the reference's own error, and more seeds or checkpoints.",
+                        std::sqrt(FLOOR_POWER)));
 }
 
 void judge_tiles(BiasVerdict& verdict, const BiasEvidence& evidence, double alpha)
 {
-    const WelchTiles tiles = compare_tiles(*evidence.pool, *evidence.reference, evidence.width, evidence.height);
+    // Half of the level for all tiles together, half for each by itself: one that is far off is a bias too.
+    const WelchTiles tiles =
+        compare_tiles(*evidence.pool, *evidence.reference, evidence.width, evidence.height, alpha / 2);
     verdict.tile = tiles.tile;
     verdict.tile_p_value = tiles.excess_p_value;
     verdict.uniform_p_value = tiles.ks_p_value;
     verdict.worst_tile_z = tiles.worst_z;
     // Without noise in any tile there are no p-values, only facts.
-    verdict.tiles_passed = !(tiles.excess_p_value <= alpha) && !has_exact_difference(tiles);
+    verdict.tiles_passed =
+        !(tiles.excess_p_value <= alpha / 2) && tiles.below_alpha == 0 && !has_exact_difference(tiles);
     if (!verdict.tiles_passed)
         verdict.reasons.push_back(fmt::format("Tiles of {0}x{0} pixels differ from the reference by more than noise: "
                                               "p = {1:.2g}, the worst by {2:.1f} standard errors.",
@@ -163,8 +175,7 @@ bool sees_bias(BiasVerdict& verdict, const BiasEvidence& evidence, const Verdict
         judge_floor(verdict, evidence);
     judge_tiles(verdict, evidence, levels.test_alpha);
     judge_mean(verdict, evidence, levels);
-    const bool has_floor = !verdict.exact && evidence.floor.known() && !evidence.floor.contains(0.0);
-    return has_floor || !verdict.tiles_passed || !verdict.mean_passed;
+    return (!verdict.exact && has_floor(evidence)) || !verdict.tiles_passed || !verdict.mean_passed;
 }
 
 // Whether the errors fall at an impossible rate. A floor bends the slope too.
@@ -201,12 +212,12 @@ int tile_edge(int width, int height)
     return std::clamp(std::min(width, height) / 8, 1, 8);
 }
 
-WelchTiles compare_tiles(const PixelPool& pool, const Reference& reference, int width, int height)
+WelchTiles compare_tiles(const PixelPool& pool, const Reference& reference, int width, int height, double alpha)
 {
     const double degrees = static_cast<double>(pool.count()) - 1;
     return welch_test(moments_of(pool.mean(), pool.variance_of_mean(), degrees),
                       moments_of(reference.mean, reference.variance, reference.degrees), width, height,
-                      tile_edge(width, height));
+                      tile_edge(width, height), alpha);
 }
 
 BiasVerdict judge_bias(const BiasEvidence& evidence, const VerdictLevels& levels)
@@ -225,10 +236,14 @@ BiasVerdict judge_bias(const BiasEvidence& evidence, const VerdictLevels& levels
 
     const bool can_see = !is_blind && has_pictures && evidence.bad_values == 0;
     const bool seen = can_see && sees_bias(verdict, evidence, levels);
+    if (seen && !evidence.reference->knows_error)
+        verdict.reasons.emplace_back("The reference's own error is not known and may be what is seen.");
     const bool wrong_slope = judge_slope(verdict, evidence);
     const bool weak_mean = verdict.detectable_bias > levels.delta;
     if (failed || (wrong_slope && !seen))
         verdict.result = BiasResult::failed;
+    else if (seen && !evidence.reference->knows_error)
+        verdict.result = BiasResult::unknown;
     else if (seen)
         verdict.result = BiasResult::biased;
     else if (is_blind)

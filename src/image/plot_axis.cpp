@@ -10,7 +10,7 @@ namespace etendue
 {
 namespace
 {
-constexpr double LEAST_SPAN = 2.0; // of the axis: high / low
+constexpr double LEAST_SPAN = 3.0; // of the axis, high / low: wherever that is, it holds two numbers of one digit
 constexpr double MARGIN = 0.04;    // of its length, beyond the values at either end
 
 double power_of_ten(int exponent)
@@ -69,8 +69,8 @@ std::vector<AxisTick> LogAxis::ticks(std::size_t most_labels) const
             ticks.push_back({value, digit == 1, is_labelled});
         }
     }
-    const auto labelled = std::count_if(ticks.begin(), ticks.end(), [](const AxisTick& t) { return t.is_labelled; });
-    if (labelled < 2)
+    // Within a decade, label everything.
+    if (ticks.size() <= most_labels)
         for (AxisTick& tick : ticks) tick.is_labelled = true;
     return ticks;
 }

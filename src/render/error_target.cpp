@@ -2,6 +2,7 @@
 #include "render/error_target.h"
 
 #include "render/render_settings.h"
+#include "scene/scene_check.h"
 #include "util/error.h"
 #include "util/statistics.h"
 
@@ -67,7 +68,9 @@ ErrorInterval estimate_error(const Film& film, double confidence)
     const std::vector<double> squared = film.squared_relative_errors();
     const double count = static_cast<double>(squared.size());
     const double sum = std::accumulate(squared.begin(), squared.end(), 0.0);
-    if (!std::isfinite(sum) || squared.size() < 2) return {unknown, 0.0, unknown, 0.0};
+    // A picture that is black so far tells nothing: its light may be rare.
+    const bool is_black = sum == 0.0 && film.is_black();
+    if (!std::isfinite(sum) || squared.size() < 2 || is_black) return {unknown, 0.0, unknown, 0.0};
     // How far the sum of the estimates may be from what it expects.
     const double of_estimate = variance_of_sum(squared);
     // How far the sum of the true errors may be: twice the square of each pixel's for means that are normal, where an
@@ -89,6 +92,8 @@ void check_error_target(const Scene& scene, const PixelRect& crop)
     if (error_estimate_of(scene) == ErrorEstimate::none)
         throw UsageError("A single Sobol sequence does not tell its error: --error needs the sampler's replicates to "
                          "be 2, for example by -D sampler.replicates=2.");
+    if (!is_lit(scene))
+        throw UsageError("Nothing in the scene emits light: its picture is black, and has no relative error.");
     const std::size_t pixels = static_cast<std::size_t>(crop.width) * static_cast<std::size_t>(crop.height);
     if (pixels < LEAST_PIXELS)
         throw UsageError(fmt::format("{} pixels do not tell how well their error is known: --error needs {} at least.",

@@ -304,6 +304,14 @@ double Film::relative_error() const
     return std::sqrt(std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size()));
 }
 
+bool Film::is_black() const
+{
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        if (estimate_now(i).mean != Vec3(0.0)) return false;
+    return true;
+}
+
 std::uint64_t Film::min_samples() const
 {
     const std::lock_guard lock(mutex_);

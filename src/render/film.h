@@ -76,6 +76,9 @@ public:
     // The root of their mean.
     double relative_error() const;
 
+    // Whether no sample brought any light yet.
+    bool is_black() const;
+
     // The fewest and the sum of samples over the pixels.
     std::uint64_t min_samples() const;
     std::uint64_t total_samples() const;

@@ -30,6 +30,8 @@ void check_end_of_paths(const IntegratorDescription& integrator)
                                               "might never end; set a max_depth or a probability less than 1");
 }
 
+} // namespace
+
 bool is_lit(const Scene& scene)
 {
     const auto shines = [](const Vec3& radiance) { return radiance != Vec3(0.0); };
@@ -38,7 +40,6 @@ bool is_lit(const Scene& scene)
                return shape.emission && shines(shape.emission->radiance);
            });
 }
-} // namespace
 
 std::vector<std::string> check_scene(const Scene& scene)
 {

@@ -11,4 +11,7 @@ namespace etendue
 // Throws SceneError: an empty scene, a camera without a direction, paths that may never end. Returns warnings, complete
 // sentences.
 std::vector<std::string> check_scene(const Scene& scene);
+
+// Whether anything emits light: a shape or the environment.
+bool is_lit(const Scene& scene);
 } // namespace etendue

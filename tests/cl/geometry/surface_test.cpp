@@ -157,6 +157,34 @@ TEST_CASE("points of spheres and disks lie on them within the error bound, with 
     }
 }
 
+TEST_CASE("along the rim of a sphere a ray meets the side on which it starts")
+{
+    Randoms randoms;
+    const Primitive sphere = make_sphere({0.6l, 0.2l, 0.1l}, 0.4l);
+    const Long3 centre = to_long(sphere.a);
+    const long double r = sphere.b.s[0];
+    Hits outside, inside;
+    for (int i = 0; i < 20000; ++i) {
+        const Long3 axis = randoms.direction(), along = unit(cross(axis, randoms.direction()));
+        // Past the point centre + r axis, at a distance within some roundings; from within along a short chord.
+        const Long3 rim = centre + r * (1.0l + 4 * U * randoms.number()) * axis;
+        outside.add(rim - 3.0l * along, along, 3.0l);
+        const long double depth = 16 * U;
+        inside.add(centre + r * (1.0l - depth) * axis, along, r * std::sqrt(2 * depth));
+    }
+    for (Device& device : test_devices()) {
+        const Surfaces from_outside = surfaces_of(device, sphere, outside),
+                       from_inside = surfaces_of(device, sphere, inside);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < outside.t.size(); ++i) {
+            // The kernels' own product rounds.
+            wrong += !(dot(from_outside.wo(i), from_outside.ng(i)) > -2 * U);
+            wrong += !(dot(from_inside.wo(i), from_inside.ng(i)) < 2 * U);
+        }
+        CHECK(wrong == 0);
+    }
+}
+
 TEST_CASE("a surface looks back along the ray, and knows its material and light")
 {
     Hits hits;

@@ -92,4 +92,6 @@ TEST_CASE("the summary counts, and says how strict the tests were", "[host]")
     family.tests = 0;
     CHECK_THAT(table_summary(run, family),
                Contains("2 checks were not run for want of time, the first is L1") && !Contains("statistical"));
+    run.interrupted = true;
+    CHECK_THAT(table_summary(run, family), Contains("2 checks were not run because of the interrupt"));
 }

@@ -95,6 +95,7 @@ TEST_CASE("errors between seeds are the variance, and see no bias", "[converge]"
     }
     // A run that ended before its second checkpoint counts for the first.
     runs[0].rows.resize(2);
+    runs[0].rows[1].checkpoint = 1;
     pictures[0].push_back(pictures[0][0]);
     set_errors_between_seeds(runs, pictures, {});
     double squares = 0.0, mse = 0.0;

@@ -91,6 +91,7 @@ private:
                 snapshot.pixels.variance.push_back(Vec3(sample_variance(i) / samples));
             }
             done = samples;
+            snapshot.checkpoint = static_cast<std::size_t>(k);
             snapshot.samples = static_cast<std::uint64_t>(samples);
             snapshot.render_seconds = snapshot.kernel_seconds = samples * options_.seconds_per_sample;
             snapshot.rays = snapshot.samples * pixels() * 3;

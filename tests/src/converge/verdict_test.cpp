@@ -100,7 +100,7 @@ TEST_CASE("what could not have been seen is underpowered", "[converge]")
     one_seed.seeds = 1;
     CHECK(analysis_of(one_seed, 3).verdict.result == BiasResult::underpowered);
     SyntheticOptions few_checkpoints;
-    few_checkpoints.checkpoints = 3;
+    few_checkpoints.checkpoints = 2;
     few_checkpoints.spread = 0.1; // no value below zero
     CHECK(analysis_of(few_checkpoints, 3).verdict.result == BiasResult::underpowered);
 }
