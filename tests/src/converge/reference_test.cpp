@@ -74,11 +74,26 @@ TEST_CASE("a file is a reference with the error that it says it has", "[converge
     CHECK_THROWS_WITH(file_reference(path, {2, 3}, 4, 8), Contains("has 3x2 pixels, the study 2x3"));
     CHECK_THROWS_WITH(file_reference(path, {3, 2}, 1, 3), Contains("rendered with seed 3, which the study uses too"));
 
+    // The mean over the seeds of a study shares theirs.
+    image.metadata = {{"etendue:seeds", "11 12 13"}};
+    write_image(image, path);
+    CHECK_NOTHROW(file_reference(path, {3, 2}, 1, 8));
+    CHECK_THROWS_WITH(file_reference(path, {3, 2}, 13, 8), Contains("rendered with seed 13"));
+
     write_image(image_of(Pixels(6, Vec3(0.5)), {}, 3, 2), path);
     const Reference bare = file_reference(path, {3, 2}, 1, 8);
     CHECK(bare.floor == 0.0);
     REQUIRE(bare.warnings.size() == 1);
     CHECK_THAT(bare.warnings[0], Contains("its own error is taken for none"));
+    CHECK_FALSE(bare.knows_error);
+
+    // What is not finite is no reference.
+    Pixels holed(6, Vec3(0.5));
+    holed[4].y = std::nan("");
+    write_image(image_of(holed, Pixels(6, Vec3(0.25)), 3, 2), path);
+    CHECK_THROWS_WITH(file_reference(path, {3, 2}, 1, 8), Contains("its value at pixel 1,1 is nan"));
+    write_image(image_of(Pixels(6, Vec3(0.5)), Pixels(6, Vec3(INFINITY)), 3, 2), path);
+    CHECK_THROWS_WITH(file_reference(path, {3, 2}, 1, 8), Contains("its standard error at pixel 0,0 is inf"));
 }
 
 TEST_CASE("the reference takes an estimator that nobody uses", "[converge]")

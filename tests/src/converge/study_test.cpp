@@ -161,3 +161,17 @@ TEST_CASE("what cannot be studied is refused", "[converge]")
     options.configurations = {parse_configuration("normals:integrator.type=normals")};
     CHECK_THROWS_WITH(run_study(options, quiet.log), Contains("has no noise"));
 }
+
+TEST_CASE("what a scene expects is no reference for another picture", "[converge]")
+{
+    Quiet quiet;
+    StudyOptions options = small_study("analytic");
+    options.preparation.scene = ETENDUE_SOURCE_DIR "/scenes/furnace/furnace.json";
+    options.preparation.size = FilmSize{8, 8};
+    options.checkpoints = parse_checkpoints("spp:1:4:x2");
+    const Study study = run_study(options, quiet.log);
+    CHECK(study.configurations[0].reference->kind == Reference::Kind::analytic);
+    CHECK(analyse(study).configurations[0].verdict.result == BiasResult::unbiased);
+    options.configurations = {parse_configuration("shallow:integrator.max_depth=3")};
+    CHECK_THROWS_WITH(run_study(options, quiet.log), Contains("is not for a picture changed by -D or --config"));
+}

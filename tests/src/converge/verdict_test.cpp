@@ -86,6 +86,57 @@ TEST_CASE("a bias in one corner is found by its tiles although the mean is right
     CHECK(verdict.mean_passed);
 }
 
+TEST_CASE("a bias of a single tile is found", "[converge]")
+{
+    Study study = synthetic_study({}, 3);
+    StudiedConfiguration& studied = study.configurations[0];
+    PixelPool shifted;
+    for (std::uint64_t s = 0; s < 8; ++s) {
+        Pixels picture = SyntheticScene({}, 50 + s).run("x", studied.reference).pool.mean();
+        for (const std::size_t i : {0, 1, 16, 17}) picture[i] += Vec3(0.2);
+        shifted.add(picture);
+    }
+    studied.pool = shifted;
+    const BiasVerdict verdict = analyse(study).configurations[0].verdict;
+    CHECK(verdict.result == BiasResult::biased);
+    CHECK(verdict.tile_p_value > 0.01); // all tiles together do not see it
+    CHECK(verdict.worst_tile_z > 10.0);
+}
+
+TEST_CASE("a difference from a picture of unknown error is no bias, and no proof of none", "[converge]")
+{
+    SyntheticOptions options;
+    options.bias = 0.05;
+    Study study = synthetic_study(options, 7);
+    auto unknown = std::make_shared<Reference>(*study.configurations[0].reference);
+    unknown->knows_error = false;
+    study.configurations[0].reference = unknown;
+    CHECK(analyse(study).configurations[0].verdict.result == BiasResult::unknown);
+}
+
+TEST_CASE("two seeds do not know whether there is a floor", "[converge]")
+{
+    SyntheticOptions options;
+    options.seeds = 2;
+    options.width = options.height = 64;
+    const BiasVerdict verdict = analysis_of(options, 7).verdict;
+    CHECK(verdict.result == BiasResult::underpowered);
+    CHECK_FALSE(verdict.floor_passed);
+    CHECK_THAT(verdict.reasons.front(), Contains("A floor 2 times the last error could hide"));
+}
+
+TEST_CASE("runs are joined by their checkpoints, though one look of a run served two", "[converge]")
+{
+    Study study = synthetic_study({}, 3);
+    std::vector<Run>& runs = study.configurations[0].runs;
+    runs[2].rows.erase(runs[2].rows.begin() + 3);
+    runs[5].rows.erase(runs[5].rows.begin());
+    const std::vector<CurvePoint> curve = analyse(study).configurations[0].curve;
+    REQUIRE(curve.size() == 7);
+    const std::vector<double> samples{2, 4, 16, 32, 64, 128, 256};
+    for (std::size_t k = 0; k < 7; ++k) CHECK(curve[k].samples == samples[k]);
+}
+
 TEST_CASE("what could not have been seen is underpowered", "[converge]")
 {
     Study study = synthetic_study({}, 3);

@@ -188,6 +188,25 @@ TEST_CASE("an unknown error has no limits and stops nothing")
     CHECK(target.report().error.low == 0.0);
 }
 
+TEST_CASE("a picture that is black so far is not known to be black")
+{
+    Film film(8, 8, {0, 0, 8, 8}, false);
+    ErrorTarget target(film, 0.5, 0.95);
+    for (std::uint64_t samples = 64; samples <= 1024; samples += 64) {
+        std::vector<PixelBlock> blocks(64);
+        for (PixelBlock& block : blocks) block.sum.s[3] = SAMPLES_PER_BLOCK;
+        film.store_tile({0, 0, 8, 8}, blocks, {});
+        CHECK(target.go_on({samples, 0.0}));
+    }
+    CHECK(film.is_black());
+    CHECK_THROWS_WITH(check_error_target(parse_scene(R"({"shapes": [{"type": "sphere", "material": "m"}],
+                                           "materials": [{"name": "m", "type": "diffuse"}]})",
+                                                     "a.json")
+                                             .scene,
+                                         {0, 0, 8, 8}),
+                      Catch::Contains("Nothing in the scene emits light"));
+}
+
 TEST_CASE("what cannot tell its error is refused before it is rendered")
 {
     const auto check = [](const std::vector<std::string>& overrides, const PixelRect& crop = {0, 0, 8, 8}) {
