@@ -14,6 +14,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -26,17 +27,25 @@ using Results = std::vector<CheckResult>;
 constexpr double INVALID_RAYS_LIMIT = 2.5; // times slower than valid ones: the rule of Embree's own verification
 constexpr double VISITS_LIMIT = 2.0;
 
-// The kernels of each device, compiled once for all checks of a list.
+// The kernels of the device that is checked, compiled once for all checks of a list.
 class SharedKernels
 {
 public:
     TraversalKernels& on(const CheckContext& context)
     {
-        return kernels_.try_emplace(context.device, *context.device).first->second;
+        // Kernels keep their OpenCL context alive, so that no other one can have its handle.
+        const cl_context handle = context.device->context()();
+        if (!kernels_ || handle_ != handle) {
+            kernels_.reset();
+            kernels_.emplace(*context.device);
+            handle_ = handle;
+        }
+        return *kernels_;
     }
 
 private:
-    std::map<const Device*, TraversalKernels> kernels_;
+    std::optional<TraversalKernels> kernels_;
+    cl_context handle_ = nullptr;
 };
 
 void expect_same(const TracedRays& expected, const TracedRays& found, const std::vector<TestRay>& rays,

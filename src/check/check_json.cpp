@@ -51,7 +51,13 @@ Json::Value result_json(const CheckResult& result)
 Json::Value run_json(const RunResult& run)
 {
     Json::Value json;
-    json["device"] = run.device;
+    json["device"]["name"] = run.device.name;
+    json["device"]["platform"] = run.device.platform_name;
+    json["device"]["platform_version"] = run.device.platform_version;
+    json["device"]["driver_version"] = run.device.driver_version;
+    json["device"]["version"] = run.device.device_version;
+    json["device"]["correctly_rounded_divide"] = run.device.correctly_rounded_divide;
+    json["device"]["double"] = run.device.has_double;
     json["seconds"] = run.seconds;
     json["interrupted"] = run.interrupted;
     json["results"] = Json::arrayValue;
@@ -75,6 +81,8 @@ std::string check_json(const std::vector<RunResult>& runs, const Family& family,
     json["command"] = command;
     json["seed"] = static_cast<Json::UInt64>(context.seed);
     json["delta"] = context.delta;
+    json["lanes"] = context.lanes == 0 ? Json::Value("as suits the device") : Json::Value(context.lanes);
+    json["specialize"] = context.specialize;
     json["family"]["alpha"] = family.alpha;
     json["family"]["tests"] = count_json(family.tests);
     json["family"]["test_alpha"] = family.test_alpha;

@@ -149,7 +149,7 @@ void ExpectedMeans::add(const std::string& subject, double mean, double standard
 {
     const double excess = std::max(std::abs(mean - expected) - tolerance, 0.0);
     double z = excess == 0.0 ? 0.0 : excess / standard_error;
-    if (std::isnan(mean) || std::isnan(standard_error)) z = std::numeric_limits<double>::infinity();
+    if (std::isnan(z)) z = std::numeric_limits<double>::infinity();
     if (tests_++ == 0 || z > worst_z_) {
         worst_z_ = z;
         worst_subject_ = subject;

@@ -15,7 +15,7 @@ std::vector<CheckResult> run_or_fail(const Check& check, const CheckContext& con
     Stopwatch watch;
     try {
         return run_check(check, context, fresh_seeds);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         CheckResult result;
         result.group = check.group;
         result.name = check.name;
@@ -45,7 +45,7 @@ RunResult run_checks(const std::vector<Check>& checks, const Family& family, con
     RunResult run;
     CheckContext context = options.context;
     context.test_alpha = family.test_alpha;
-    if (context.device) run.device = context.device->info().name;
+    if (context.device) run.device = context.device->info();
     for (std::size_t i = 0; i < checks.size(); ++i) {
         const bool late = options.budget && watch.seconds() >= *options.budget;
         run.interrupted = run.interrupted || context.stop();

@@ -20,7 +20,7 @@ struct RunOptions {
 };
 
 struct RunResult {
-    std::string device;
+    DeviceInfo device;
     std::vector<CheckResult> results;
     std::vector<std::string> not_run; // names of checks for which there was no time
     bool interrupted = false;
@@ -31,7 +31,7 @@ struct RunResult {
     bool passed() const;
 };
 
-// A check that throws an Error has failed, and the others go on. context.stop ends the run before the next check; what
+// A check that throws has failed, and the others go on. context.stop ends the run before the next check; what
 // the stopped one found is dropped.
 RunResult run_checks(const std::vector<Check>& checks, const Family& family, const RunOptions& options);
 } // namespace etendue

@@ -6,6 +6,7 @@
 #include "geometry/geometry.h"
 #include "util/stopwatch.h"
 
+#include <algorithm>
 #include <map>
 
 namespace etendue
@@ -122,6 +123,19 @@ std::vector<CheckResult> run_scene(const SceneFacts& scene, const CheckContext& 
     }
     return results;
 }
+
+// The errors of Sobol's and stratified samples are known to a few degrees of freedom only, which no fact of the film's
+// variance allows for.
+void refuse_unknown_errors(const SceneFacts& scene)
+{
+    const bool is_statistical = std::any_of(scene.facts.begin(), scene.facts.end(), [](const Fact& fact) {
+        return fact.statistical_tests() > 0 || fact.text.subject == Subject::relative_variance ||
+               fact.text.subject == Subject::second_moment;
+    });
+    if (is_statistical && scene.loaded.scene.sampler.type != SamplerType::independent)
+        throw SceneError(scene.source.file + ": a fact with the rule \"stat\", or about variance or moments, needs "
+                                             "independent samples: \"sampler\": {\"type\": \"independent\"}.");
+}
 } // namespace
 
 std::optional<Check> scene_check(const SceneSource& source)
@@ -137,6 +151,7 @@ std::optional<Check> scene_check(const SceneSource& source)
         scene.facts.push_back(make_fact(text, formulas));
         check.statistical_tests += scene.facts.back().statistical_tests();
     }
+    refuse_unknown_errors(scene);
     scene.names = result_names(source.name, scene.facts);
     check.run = [scene = std::move(scene)](const CheckContext& context) { return run_scene(scene, context); };
     return check;

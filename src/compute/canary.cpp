@@ -176,7 +176,7 @@ std::string verdict_key(const DeviceInfo& d, const std::string& options)
     std::string text;
     for (const std::string& part :
          {std::string(ETENDUE_VERSION), d.platform_name, d.platform_version, d.name, d.driver_version, d.device_version,
-          std::string(d.correctly_rounded_divide ? "correctly rounded" : ""), options, expand_program("canary.cl")})
+          all_build_options(d, options), expand_program("canary.cl")})
         text += fmt::format("{}:{};", part.size(), part);
     return sha256(text);
 }

@@ -15,11 +15,8 @@
 namespace etendue
 {
 namespace fs = std::filesystem;
-namespace
-{
-// The options of every build of this device, then those of this program. Literals carry no suffix in our kernels, so
-// the float build makes them float.
-std::string all_options(const DeviceInfo& device, const std::string& options)
+// Literals carry no suffix in our kernels, so the float build makes them float.
+std::string all_build_options(const DeviceInfo& device, const std::string& options)
 {
     std::string all = base_build_options;
     if (options.find("-DREAL_IS_DOUBLE=1") == std::string::npos) all += " -cl-single-precision-constant";
@@ -28,6 +25,8 @@ std::string all_options(const DeviceInfo& device, const std::string& options)
     return options.empty() ? all : all + ' ' + options;
 }
 
+namespace
+{
 // Everything a binary depends on.
 std::string cache_key(const DeviceInfo& d, const std::string& source, const std::string& options)
 {
@@ -117,7 +116,7 @@ Program::Program(const Device& device, const std::string& name, const std::strin
 {
     const std::string source = expand_program(name);
     report_.program = name;
-    report_.options = all_options(device.info(), options);
+    report_.options = all_build_options(device.info(), options);
     if (!cache.option().empty()) report_.options += ' ' + cache.option();
     report_.source_bytes = source.size();
     if (cache.enabled()) cache_file_ = cache.folder() / (cache_key(device.info(), source, report_.options) + ".bin");
@@ -136,7 +135,7 @@ Program Program::from_text(const Device& device, const std::string& name, const 
     Program program;
     program.device_ = &device;
     program.report_.program = name;
-    program.report_.options = all_options(device.info(), options);
+    program.report_.options = all_build_options(device.info(), options);
     program.report_.source_bytes = source.size();
     const Stopwatch stopwatch;
     program.program_ = build_source(device, source, program.report_);

@@ -46,6 +46,9 @@ struct BuildReport {
     std::size_t source_bytes = 0, binary_bytes = 0;
 };
 
+// The options of every build for this device, then those of this program.
+std::string all_build_options(const DeviceInfo& device, const std::string& options);
+
 class Program
 {
 public:

@@ -48,17 +48,23 @@ bool has_exact_difference(const WelchTiles& tiles)
     return false;
 }
 
-// Errors that fall faster than 1 / N have a fitted floor below zero.
-bool has_floor(const BiasEvidence& evidence)
+double reference_mean(const BiasEvidence& evidence)
 {
-    return evidence.floor.known() && evidence.floor.low > 0.0;
+    return mean_of_channels(mean_of(evidence.reference->mean));
 }
 
-void judge_floor(BiasVerdict& verdict, const BiasEvidence& evidence)
+// Errors that fall faster than 1 / N have a fitted floor below zero; those of rounding have one of their own.
+bool has_floor(const BiasEvidence& evidence)
 {
+    return evidence.floor.known() && evidence.floor.low > rounding_variance(reference_mean(evidence));
+}
+
+void judge_floor(BiasVerdict& verdict, const BiasEvidence& evidence, double delta)
+{
+    // What could hide must be no more than the last error, or than a relative error of delta in every pixel.
+    const double hidden = std::max(FLOOR_POWER * evidence.last_mse, std::pow(delta * reference_mean(evidence), 2.0));
     verdict.floor = evidence.floor;
-    verdict.floor_passed =
-        evidence.floor.known() && evidence.floor.low <= 0.0 && evidence.floor.high <= FLOOR_POWER * evidence.last_mse;
+    verdict.floor_passed = evidence.floor.known() && !has_floor(evidence) && evidence.floor.high <= hidden;
     if (has_floor(evidence))
         verdict.reasons.push_back(
             fmt::format("The errors do not fall to zero: MSE = a / N + b has b = {:.3g}, between {:.3g} and {:.3g}.",
@@ -163,7 +169,7 @@ bool has_failed(BiasVerdict& verdict, const BiasEvidence& evidence)
 
 bool is_exact(const BiasEvidence& evidence)
 {
-    return evidence.largest_mse <= rounding_variance(mean_of_channels(mean_of(evidence.reference->mean)));
+    return evidence.largest_mse <= rounding_variance(reference_mean(evidence));
 }
 
 // The three parts; whether one of them sees a bias.
@@ -172,7 +178,7 @@ bool sees_bias(BiasVerdict& verdict, const BiasEvidence& evidence, const Verdict
     if (verdict.exact)
         verdict.floor_passed = true;
     else
-        judge_floor(verdict, evidence);
+        judge_floor(verdict, evidence, levels.delta);
     judge_tiles(verdict, evidence, levels.test_alpha);
     judge_mean(verdict, evidence, levels);
     return (!verdict.exact && has_floor(evidence)) || !verdict.tiles_passed || !verdict.mean_passed;

@@ -89,7 +89,11 @@ private:
     {
         double value = 0.0;
         mu::Parser parser;
-        prepare(parser, formula);
+        try {
+            prepare(parser, formula);
+        } catch (const mu::ParserError& error) {
+            fail(formula, error);
+        }
         try {
             parser.DefineVar(name, &value);
         } catch (const mu::ParserError&) {

@@ -21,7 +21,7 @@ Json::Value parse(const std::string& text)
 RunResult run_of(Verdict verdict)
 {
     RunResult run;
-    run.device = "a device";
+    run.device.name = "a device";
     run.seconds = 3.0;
     CheckResult result;
     result.group = "analytic";
@@ -52,7 +52,7 @@ TEST_CASE("the JSON holds the family, each device and every result", "[host]")
     CHECK(json["family"]["critical_z"] == 4.75);
     REQUIRE(json["runs"].size() == 2);
     const Json::Value& run = json["runs"][0];
-    CHECK(run["device"] == "a device");
+    CHECK(run["device"]["name"] == "a device");
     CHECK(run["summary"]["failed"] == 1);
     CHECK(run["summary"]["passed"] == 0);
     const Json::Value& result = run["results"][0];
