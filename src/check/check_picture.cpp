@@ -5,6 +5,7 @@
 #include "geometry/geometry.h"
 #include "render/render_settings.h"
 #include "render/renderer.h"
+#include "render/replay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,14 +16,18 @@ namespace etendue
 {
 namespace
 {
-std::string accident_of(const RenderReport& report)
+std::string accident_of(const RenderReport& report, const Scene& scene, const PictureChoice& choice)
 {
     for (std::size_t kind = 0; kind < HEALTH_KINDS; ++kind) {
         const HealthRecord& record = report.health[kind];
         if (record.count == 0) continue;
         const AccidentPlace first = record.first.value_or(AccidentPlace{});
-        return fmt::format("{} samples counted as zero because of {}, first pixel {},{} sample {} vertex {}",
-                           record.count, health_name(kind), first.x, first.y, first.sample, first.vertex);
+        std::vector<std::string> options{"--spp", std::to_string(scene.sampler.samples_per_pixel)};
+        for (const std::string& override : choice.overrides) options.insert(options.end(), {"-D", override});
+        if (choice.lenient) options.emplace_back("--lenient");
+        return fmt::format("{} samples counted as zero because of {}, first pixel {},{} sample {} vertex {}: {}",
+                           record.count, health_name(kind), first.x, first.y, first.sample, first.vertex,
+                           replay_command(scene.file, {first.x, first.y, first.sample}, scene.sampler.seed, options));
     }
     return "";
 }
@@ -55,7 +60,7 @@ CheckPicture check_picture(const CheckContext& context, const LoadedScene& loade
     renderer.store_in_cache();
 
     CheckPicture picture{scene.film.width,  scene.film.height, {},
-                         renderer.report(), loaded.warnings,   accident_of(renderer.report())};
+                         renderer.report(), loaded.warnings,   accident_of(renderer.report(), scene, choice)};
     append(picture.warnings, geometry.warnings);
     append(picture.warnings, renderer.report().warnings);
     for (int y = 0; y < scene.film.height; ++y)

@@ -22,6 +22,7 @@ struct CheckPicture {
 struct PictureChoice {
     bool lenient = false;
     bool specialized = false; // else the general kernel, which serves every scene, so that it is compiled once
+    std::vector<std::string> overrides = {}; // with which the scene was loaded
 };
 
 // Load and render with the samples and the seed of the scene, changed as the context says. Throws what loading and

@@ -65,7 +65,7 @@ CheckPicture other_picture(const CheckContext& context, const SceneFacts& scene,
     const SceneSource source = fact.text.scene.empty() ? scene.source : scene.source.neighbour(fact.text.scene);
     const LoadedScene loaded = source.load(fact.text.overrides);
     const bool lenient = loaded.scene.expectation ? loaded.scene.expectation->lenient : scene.expectation().lenient;
-    return check_picture(context, loaded, {lenient, fact.text.specialized});
+    return check_picture(context, loaded, {lenient, fact.text.specialized, fact.text.overrides});
 }
 
 void judge_fact(CheckResult& result, const Fact& fact, const SceneFacts& scene, const CheckPicture& picture,

@@ -126,6 +126,8 @@ void add_picture_options(CLI::App& command, RenderArguments& a)
         ->type_name("NAME");
     command.add_option("--accelerator", a.accelerator, "lbvh, none or auto, instead of the scene's")->type_name("NAME");
     command.add_flag("--lenient", a.lenient, "Drop zero-area and non-finite triangles, counted, instead of failing");
+    command.add_flag("--fast-math", a.fast_math,
+                     "An experiment: let the compiler relax floating point. The picture may be wrong, and says so");
     command.add_flag("--no-cache", a.no_cache, "Neither read nor write compiled kernels in the cache");
     command.add_flag("--quiet", a.quiet, "Show warnings and errors only");
     command.add_flag("-v,--verbose", a.verbose, "Show details");
@@ -178,8 +180,6 @@ void add_render_options(CLI::App& command, RenderArguments& a)
         ->type_name("N")
         ->capture_default_str();
     add_lanes_option(command, a.lanes);
-    command.add_flag("--fast-math", a.fast_math,
-                     "An experiment: let the compiler relax floating point. The picture may be wrong, and says so");
 }
 
 void apply_arguments(Scene& scene, const RenderArguments& a)

@@ -1,7 +1,6 @@
 // `etendue replay`: load, replay twice, print side by side.
 #include "command/replay.h"
 
-#include "command/command_line.h"
 #include "command/replay_text.h"
 #include "scene/scene_loader.h"
 #include "util/log.h"
@@ -57,7 +56,7 @@ int replay_one(const ReplayArguments& arguments)
     const Device device(select_devices(list_devices(), render.device).front());
     const KernelCache cache = render.no_cache ? KernelCache::none() : KernelCache::standard();
     const auto path = [&](Precision precision) {
-        Replayer replayer(device, loaded.scene, geometry, precision, {true, cache});
+        Replayer replayer(device, loaded.scene, geometry, precision, {true, cache, render.fast_math});
         const PathRecord record = replayer.replay({&sample, 1}, MAX_SHOWN_VERTICES).front();
         if (!device.caches_kernels()) replayer.store_in_cache();
         return record;
@@ -71,19 +70,19 @@ int replay_one(const ReplayArguments& arguments)
 
 std::string replay_line(const RenderArguments& a, const Scene& scene, const ReplaySample& sample)
 {
-    std::string line = fmt::format("etendue replay {} --pixel {},{} --sample {} --seed {}", shell_word(a.scene),
-                                   sample.x, sample.y, sample.sample, scene.sampler.seed);
+    std::vector<std::string> options;
     const auto add = [&](const std::string& option, const std::string& value) {
-        if (!value.empty()) line += ' ' + option + ' ' + shell_word(value);
+        if (!value.empty()) options.insert(options.end(), {option, value});
     };
     if (a.samples) add("--spp", std::to_string(*a.samples));
     add("--size", a.size);
     add("--integrator", a.integrator);
     add("--accelerator", a.accelerator);
     for (const std::string& override : a.overrides) add("-D", override);
-    if (a.lenient) line += " --lenient";
+    if (a.lenient) options.emplace_back("--lenient");
+    if (a.fast_math) options.emplace_back("--fast-math");
     if (a.device != "auto") add("--device", a.device);
-    return line;
+    return replay_command(a.scene, sample, scene.sampler.seed, options);
 }
 
 void register_replay(CLI::App& app, std::function<int()>& action)

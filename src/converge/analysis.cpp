@@ -155,6 +155,7 @@ BiasEvidence evidence_of(const StudiedConfiguration& studied, const Configuratio
             evidence.picture_variances.push_back(run.picture_variance);
         }
         evidence.accidents += run.rows.back().accidents;
+        if (evidence.replay.empty()) evidence.replay = run.replay;
         const BadValues& bad = run.rows.back().bad;
         evidence.bad_values += bad.nan + bad.infinite + bad.negative;
     }

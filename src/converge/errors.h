@@ -27,6 +27,7 @@ struct ErrorRow {
 struct Run {
     std::uint64_t seed = 0;
     std::vector<ErrorRow> rows;
+    std::string replay;         // the command that replays the first accident; "" without any
     Vec3 picture_mean{0.0};     // at the last row
     Vec3 picture_variance{0.0}; // of that mean, as the film estimates it
     Measurement measurement;

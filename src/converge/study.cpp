@@ -1,12 +1,14 @@
 // Runs a study: references, cold starts, then the configurations in turn.
 #include "converge/study.h"
 
+#include "render/replay.h"
 #include "util/stopwatch.h"
 #include "util/study_progress.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -64,8 +66,7 @@ private:
             study_.configurations.push_back(std::move(studied));
         }
         describe();
-        study_.self_check = run_self_check(study_.configurations.front().prepared.options, options.stop);
-        if (!passed(study_.self_check)) warn("The bench does not measure the furnace's known error: see the report.");
+        check_bench();
         if (options.stop() || !find_references()) return;
         for (StudiedConfiguration& studied : study_.configurations) {
             if (options.stop()) return;
@@ -79,6 +80,24 @@ private:
                 render(studied, s);
             }
         set_missing_errors();
+    }
+
+    // On each device in each precision that a configuration uses.
+    void check_bench()
+    {
+        std::set<std::string> checked;
+        for (const StudiedConfiguration& studied : study_.configurations) {
+            const RenderOptions& options = studied.prepared.options;
+            std::string where = options.precision == Precision::fp64 ? "fp64" : "single";
+            if (options.fast_math) where += ", fast math";
+            for (const DeviceInfo& device : options.devices) where += ", " + device.name;
+            if (!checked.insert(where).second) continue;
+            for (SelfCheckResult result : run_self_check(options, study_.options.stop)) {
+                result.name += " (" + where + ")";
+                study_.self_check.push_back(result);
+            }
+        }
+        if (!passed(study_.self_check)) warn("The bench does not measure the furnace's known error: see the report.");
     }
 
     void describe()
@@ -120,10 +139,13 @@ private:
         if (options.reference == "auto" || options.reference == "analytic") {
             const bool mean_too = options.reference == "analytic";
             const auto radiance = expected_radiance(scene, mean_too);
-            if (radiance && is_as_written(group.front()->prepared))
+            if (radiance && is_as_written(group.front()->prepared)) {
+                if (mean_too && !expected_radiance(scene, false))
+                    warn("The scene expects something of the mean only: the reference takes every pixel to be that.");
                 return analytic_reference(*radiance, size.width, size.height,
                                           fmt::format("analytic: the scene expects the radiance {:.9g}, {:.9g}, {:.9g}",
                                                       radiance->x, radiance->y, radiance->z));
+            }
             if (mean_too && radiance)
                 throw UsageError(scene.file +
                                  ": what the scene expects is not for a picture changed by -D or --config, "
@@ -194,11 +216,33 @@ private:
         run.measurement = measure(studied.prepared, measurement);
         progress_.end();
         if (run.rows.empty()) return;
+        run.replay = replay_of(studied, run);
         run.picture_mean = mean_of(last.mean);
         run.picture_variance = variance_of_picture_mean(last.variance);
         if (run.measurement.complete) studied.pool.add(last.mean);
         pictures_[&studied].push_back(std::move(pictures));
         studied.runs.push_back(std::move(run));
+    }
+
+    // How to see the path of a run's first accident; its place where no command line says the configuration.
+    std::string replay_of(const StudiedConfiguration& studied, const Run& run) const
+    {
+        const Scene& scene = studied.prepared.scene;
+        const std::vector<std::string>& changes = studied.prepared.configuration.overrides;
+        for (const HealthRecord& record : run.measurement.report.health) {
+            if (!record.first) continue;
+            const ReplaySample sample{record.first->x, record.first->y, record.first->sample};
+            // Scenes of the course's format have no settings that -D could change.
+            if (scene.course_format && !changes.empty())
+                return fmt::format("pixel {},{} sample {} of seed {}", sample.x, sample.y, sample.sample, run.seed);
+            std::vector<std::string> options{"--size", fmt::format("{}x{}", scene.film.width, scene.film.height),
+                                             "--spp", std::to_string(run.rows.back().samples)};
+            if (studied.prepared.configuration.fast_math) options.emplace_back("--fast-math");
+            for (const auto* list : {&study_.options.preparation.overrides, &changes})
+                for (const std::string& change : *list) options.insert(options.end(), {"-D", change});
+            return replay_command(scene.file, sample, run.seed, options);
+        }
+        return "";
     }
 
     void set_missing_errors()

@@ -59,6 +59,7 @@ struct BiasEvidence {
     Interval slope;                      // on samples, at the verdict's level
     bool independent_samples = true;     // whose errors must fall with slope -1
     std::uint64_t accidents = 0, bad_values = 0;
+    std::string replay; // the command that replays the first accident
 };
 
 struct VerdictLevels {

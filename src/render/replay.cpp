@@ -1,9 +1,11 @@
 // Launches of the replay kernel.
 #include "render/replay.h"
 
+#include "compute/canary.h"
 #include "render/precision.h"
 #include "render/render_settings.h"
 #include "render/scene_features.h"
+#include "util/shell_word.h"
 
 #include <algorithm>
 
@@ -61,6 +63,15 @@ std::vector<fp64::PathVertex> in_double(const std::vector<PathVertex>& vertices)
 }
 } // namespace
 
+std::string replay_command(const std::string& file, const ReplaySample& sample, std::uint64_t seed,
+                           const std::vector<std::string>& options)
+{
+    std::string line = fmt::format("etendue replay {} --pixel {},{} --sample {} --seed {}", shell_word(file), sample.x,
+                                   sample.y, sample.sample, seed);
+    for (const std::string& option : options) line += ' ' + shell_word(option);
+    return line;
+}
+
 Replayer::Replayer(const Device& device, const Scene& scene, const Geometry& geometry, Precision precision,
                    const ReplayOptions& options)
     : device_(&able_device(device, scene, precision)), precision_(precision),
@@ -68,7 +79,8 @@ Replayer::Replayer(const Device& device, const Scene& scene, const Geometry& geo
       scene_(device, geometry, settings_, BvhPlace::host, options.cache, precision),
       program_(device, "replay.cl",
                replay_features(scene, geometry, settings_, scene_.bvh_statistics().depth, precision, options.specialize)
-                   .build_options(),
+                       .build_options() +
+                   (options.fast_math ? std::string(" ") + FAST_MATH_OPTION : ""),
                options.cache),
       kernel_(program_, "replay")
 {

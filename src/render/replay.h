@@ -22,6 +22,11 @@ struct ReplaySample {
     std::uint64_t sample = 0;
 };
 
+// The command line, for a shell, that replays a sample of a render of the scene in `file`; `options` are what changed
+// the picture: "--size", "8x8" and so on.
+std::string replay_command(const std::string& file, const ReplaySample& sample, std::uint64_t seed,
+                           const std::vector<std::string>& options);
+
 struct PathRecord {
     std::vector<fp64::PathVertex> vertices; // of either precision, widened; the first ones if there are too many
     std::uint32_t vertex_count = 0;         // of the whole path, the place where it left the scene included
@@ -32,6 +37,7 @@ struct PathRecord {
 struct ReplayOptions {
     bool specialize = true; // false: the general kernel
     KernelCache cache;
+    bool fast_math = false; // relaxed floating point, as in the render
 };
 
 // A device with a scene and the replay kernel.

@@ -75,10 +75,12 @@ TEST_CASE("the command that replays a sample keeps what matters to the picture",
     arguments.integrator = "bsdf";
     arguments.accelerator = "none";
     arguments.lenient = true;
+    arguments.fast_math = true;
     arguments.device = "cpu";
     CHECK(replay_line(arguments, scene, {3, 4, 5}) ==
           "etendue replay 'a room.json' --pixel 3,4 --sample 5 --seed 12 --spp 9 --size 64x32 --integrator bsdf "
-          "--accelerator none -D 'film.size=[8,8]' -D sampler.seed=3 -D 'camera.note=it'\\''s' --lenient --device cpu");
+          "--accelerator none -D 'film.size=[8,8]' -D sampler.seed=3 -D 'camera.note=it'\\''s' --lenient --fast-math "
+          "--device cpu");
 }
 
 TEST_CASE("replay prints places of the scene, in float and in double", "[command][replay]")

@@ -171,9 +171,11 @@ TEST_CASE("accidents and impossible slopes fail whatever the picture looks like"
 {
     Study study = synthetic_study({}, 3);
     study.configurations[0].runs[2].rows.back().accidents = 5;
+    study.configurations[0].runs[2].replay = "etendue replay synthetic.json --pixel 1,2 --sample 3 --seed 4";
     BiasVerdict verdict = analyse(study).configurations[0].verdict;
     CHECK(verdict.result == BiasResult::failed);
-    CHECK_THAT(verdict.reasons.at(0), Contains("5 samples were not finite"));
+    CHECK_THAT(verdict.reasons.at(0), Contains("5 samples were not finite") &&
+                                          Contains("the first: etendue replay synthetic.json --pixel 1,2"));
 
     study = synthetic_study({}, 3);
     for (Run& run : study.configurations[0].runs)
