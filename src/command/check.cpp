@@ -14,7 +14,6 @@
 #include "util/progress.h"
 #include "util/stopwatch.h"
 
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <random>
@@ -118,18 +117,11 @@ int exit_code(const std::vector<RunResult>& runs)
     return static_cast<int>(ExitCode::success);
 }
 
-void check_json_path(const std::string& path)
-{
-    const auto folder = std::filesystem::path(path).parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw FileError(path, "the folder " + folder.string() + " does not exist.");
-}
-
 int check(const CheckArguments& arguments, const std::string& command_line)
 {
     Log& log = standard_log();
     if (arguments.quiet) log.set_verbosity(Verbosity::quiet);
-    if (!arguments.json.empty()) check_json_path(arguments.json);
+    if (!arguments.json.empty()) check_writable(arguments.json);
     std::size_t left_out = 0;
     const std::vector<Check> checks = chosen_checks(arguments, left_out);
     if (arguments.list) {

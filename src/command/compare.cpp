@@ -137,11 +137,8 @@ std::string lower_extension(const std::string& path)
 // Throw what writing would throw for want of a folder or format, before the work is done.
 void check_outputs(const CompareArguments& arguments)
 {
-    for (const std::string& path : {arguments.html, arguments.json}) {
-        const auto folder = std::filesystem::path(path).parent_path();
-        if (!folder.empty() && !std::filesystem::is_directory(folder))
-            throw FileError(path, "the folder " + folder.string() + " does not exist.");
-    }
+    for (const std::string& path : {arguments.html, arguments.json})
+        if (!path.empty()) check_writable(path);
     if (arguments.diff.empty()) return;
     check_image_path(arguments.diff);
     if (lower_extension(arguments.diff) == ".hdr")

@@ -52,14 +52,6 @@ bool is_exr(const std::string& path)
     return extension == ".exr";
 }
 
-// Throw what writing would throw for want of a folder, before the work is done.
-void check_report_path(const std::string& path)
-{
-    const auto folder = std::filesystem::path(path).parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-        throw FileError(path, "the folder " + folder.string() + " does not exist.");
-}
-
 RenderOptions render_options(const RenderArguments& arguments, Log& log)
 {
     RenderOptions options;
@@ -241,7 +233,7 @@ int render(const RenderArguments& arguments, const std::string& command_line)
     log.set_verbosity(arguments.verbosity());
     const std::vector<std::string> outputs = outputs_of(arguments);
     for (const std::string& path : outputs) check_image_path(path);
-    if (!arguments.report.empty()) check_report_path(arguments.report);
+    if (!arguments.report.empty()) check_writable(arguments.report);
     const bool has_aov = std::any_of(outputs.begin(), outputs.end(), is_exr);
     const InterruptGuard guard;
 

@@ -217,16 +217,7 @@ std::string png_bytes(const Image& image, const WriteOptions& options)
 void check_image_path(const std::string& path)
 {
     format_of(path);
-    std::error_code code;
-    if (fs::is_directory(path, code)) throw FileError(path, "this is a directory, not a file.");
-    const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, code))
-        throw FileError(path, fmt::format("the folder {} does not exist.", folder.string()));
-    // Permissions do not tell the whole truth: try.
-    const fs::path probe = folder / fmt::format(".{}.probe", fs::path(path).filename().string());
-    const bool writable = std::ofstream(probe).is_open();
-    fs::remove(probe, code);
-    if (!writable) throw FileError(path, fmt::format("the folder {} cannot be written to.", folder.string()));
+    check_writable(path);
 }
 
 Image read_image(const std::string& path)

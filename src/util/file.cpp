@@ -54,6 +54,23 @@ struct TemporaryFile {
 
     fs::path path;
 };
+
+void check_place(const std::string& path)
+{
+    if (path.empty()) throw FileError("\"\"", "an empty name cannot be written.");
+    std::error_code code;
+    if (fs::is_directory(path, code)) throw FileError(path, "this is a directory, not a file.");
+    const fs::path folder = fs::path(path).parent_path();
+    if (!folder.empty() && !fs::is_directory(folder, code))
+        throw FileError(path, "the folder " + folder.string() + " does not exist.");
+}
+
+// A device or a pipe is written directly: renaming would replace it.
+bool is_special(const std::string& path)
+{
+    std::error_code code;
+    return fs::exists(path, code) && !fs::is_regular_file(path, code);
+}
 } // namespace
 
 std::string read_file(const std::string& path, std::uint64_t limit)
@@ -84,17 +101,24 @@ std::string read_file(const std::string& path, std::uint64_t limit)
     return content;
 }
 
+void check_writable(const std::string& path)
+{
+    check_place(path);
+    if (is_special(path)) return;
+    // Permissions do not tell the whole truth: try.
+    const TemporaryFile probe(temporary_name(path));
+    if (!std::ofstream(probe.path)) {
+        const std::string folder = fs::path(path).parent_path().string();
+        throw FileError(path, "the folder " + (folder.empty() ? "." : folder) + " cannot be written to.");
+    }
+}
+
 void replace_file(const std::string& path, const std::function<void(const std::string&)>& write)
 {
-    if (path.empty()) throw FileError("\"\"", "an empty name cannot be written.");
-    std::error_code code;
-    if (fs::is_directory(path, code)) throw FileError(path, "this is a directory, not a file.");
-    const fs::path folder = fs::path(path).parent_path();
-    if (!folder.empty() && !fs::is_directory(folder, code))
-        throw FileError(path, "the folder " + folder.string() + " does not exist.");
+    check_place(path);
+    if (is_special(path)) return write(path);
 
-    // A device or a pipe is written directly: renaming would replace it.
-    if (fs::exists(path, code) && !fs::is_regular_file(path, code)) return write(path);
+    std::error_code code;
 
     const TemporaryFile temporary(temporary_name(path));
     write(temporary.path.string());

@@ -14,6 +14,10 @@ inline constexpr std::uint64_t NO_SIZE_LIMIT = ~std::uint64_t{0};
 // out before reading where the system knows the size.
 std::string read_file(const std::string& path, std::uint64_t limit = NO_SIZE_LIMIT);
 
+// Throw the FileError that writing `path` would end with, before the work is done whose result it shall hold: no name,
+// a directory, a folder that does not exist or cannot be written to.
+void check_writable(const std::string& path);
+
 // Call write(temporary path), then rename that file to `path`. The temporary name is in the same folder and has the
 // same extension. Whatever fails or throws, `path` is untouched and nothing is left behind. Throws FileError and what
 // `write` throws.

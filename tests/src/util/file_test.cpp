@@ -86,13 +86,20 @@ TEST_CASE("a failing writer leaves the old file and nothing else", "[host]")
     CHECK(folder.file_count() == 1);
 }
 
-TEST_CASE("a place that cannot be written says why and stays as it was", "[host]")
+TEST_CASE("a place that cannot be written says why, before the work and after it, and stays as it was", "[host]")
 {
     const TemporaryFolder folder;
-    CHECK(message_of([&] { write_file(folder / "no/a.txt", "x"); }) ==
-          folder / "no/a.txt" + (": the folder " + (folder / "no") + " does not exist."));
-    CHECK(message_of([&] { write_file(folder.path.string(), "x"); }) ==
-          folder.path.string() + ": this is a directory, not a file.");
-    CHECK(message_of([&] { write_file("", "x"); }) == "\"\": an empty name cannot be written.");
+    using Use = std::function<void(const std::string&)>;
+    for (const Use& use : {Use([](const std::string& path) { write_file(path, "x"); }), Use(check_writable)}) {
+        const auto message = [&](const std::string& path) { return message_of([&] { use(path); }); };
+        CHECK(message(folder / "no/a.txt") ==
+              folder / "no/a.txt" + (": the folder " + (folder / "no") + " does not exist."));
+        CHECK(message(folder.path.string()) == folder.path.string() + ": this is a directory, not a file.");
+        CHECK(message("") == "\"\": an empty name cannot be written.");
+    }
+    // No user, root neither, can make files there.
+    CHECK(message_of([] { check_writable("/proc/a.json"); }) == "/proc/a.json: the folder /proc cannot be written to.");
+    CHECK_NOTHROW(check_writable(folder / "a.json"));
+    CHECK_NOTHROW(check_writable("/dev/null"));
     CHECK(folder.file_count() == 0);
 }
