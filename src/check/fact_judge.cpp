@@ -72,14 +72,16 @@ MeanTest test_difference(const ChannelEstimate& a, const ChannelEstimate& b, con
                      std::max(a.largest_share, b.largest_share));
 }
 
-// Keep the worse one of the channels' results.
-void take_worse(CheckResult& worst, const CheckResult& result)
+// The worst of the channels' results.
+CheckResult worst_of(const std::vector<CheckResult>& channels)
 {
     const auto rank = [](const CheckResult& r) {
         return r.verdict == Verdict::failed ? 2 : r.verdict == Verdict::underpowered ? 1 : 0;
     };
-    const bool further = rank(result) == rank(worst) && result.statistic > worst.statistic;
-    if (std::isnan(worst.statistic) || rank(result) > rank(worst) || further) worst = result;
+    const auto is_better = [&](const CheckResult& a, const CheckResult& b) {
+        return rank(a) != rank(b) ? rank(a) < rank(b) : a.statistic < b.statistic;
+    };
+    return *std::max_element(channels.begin(), channels.end(), is_better);
 }
 } // namespace
 
@@ -124,7 +126,7 @@ void judge_mean(CheckResult& result, const Fact& fact, const CheckPicture& pictu
     if (!check_channels(result, fact, picture)) return;
     CheckContext own = context;
     if (fact.delta) own.delta = *fact.delta;
-    CheckResult worst = result;
+    std::vector<CheckResult> channels;
     for (int c = 0; c < channel_count(fact); ++c) {
         const ChannelEstimate estimate = estimate_channel(picture, c);
         CheckResult one = result;
@@ -142,16 +144,16 @@ void judge_mean(CheckResult& result, const Fact& fact, const CheckPicture& pictu
             one.critical = fact.tolerance;
             pass_if(one, one.statistic <= fact.tolerance);
         }
-        take_worse(worst, one);
+        channels.push_back(one);
     }
-    result = worst;
+    result = worst_of(channels);
 }
 
 void judge_moment(CheckResult& result, const Fact& fact, const CheckPicture& picture)
 {
     result.expected = numbers_text(fact.value);
     if (!check_channels(result, fact, picture)) return;
-    CheckResult worst = result;
+    std::vector<CheckResult> channels;
     for (int c = 0; c < channel_count(fact); ++c) {
         const ChannelEstimate e = estimate_channel(picture, c);
         const bool is_variance = fact.text.subject == ExpectedFact::Subject::relative_variance;
@@ -166,13 +168,13 @@ void judge_moment(CheckResult& result, const Fact& fact, const CheckPicture& pic
         one.statistic = is_bound ? ratio / (1.0 + fact.tolerance) : std::abs(ratio - 1.0) / fact.tolerance;
         pass_if(one, one.statistic <= 1.0);
         // A moment that is known less well than the tolerance says nothing.
-        if (!is_bound && 2.0 * error > fact.tolerance * value && one.verdict == Verdict::passed) {
+        if (!is_bound && !(2.0 * error <= fact.tolerance * value) && one.verdict == Verdict::passed) {
             one.verdict = Verdict::underpowered;
             add_note(one, fmt::format("known to {:.2g} % only", 100.0 * error / value));
         }
-        take_worse(worst, one);
+        channels.push_back(one);
     }
-    result = worst;
+    result = worst_of(channels);
 }
 
 void judge_rays(CheckResult& result, const Fact& fact, const CheckPicture& picture)
@@ -237,7 +239,7 @@ void judge_same(CheckResult& result, const Fact& fact, const CheckPicture& pictu
     if (fact.text.rule == FactRule::count) return judge_near(result, fact, picture, other);
     CheckContext own = context;
     if (fact.delta) own.delta = *fact.delta;
-    CheckResult worst = result;
+    std::vector<CheckResult> channels;
     for (int c = 0; c < 3; ++c) {
         const ChannelEstimate a = estimate_channel(picture, c), b = estimate_channel(other, c);
         CheckResult one = result;
@@ -245,9 +247,9 @@ void judge_same(CheckResult& result, const Fact& fact, const CheckPicture& pictu
         one.found = numbers_text({a.mean});
         one.largest_share = std::max(a.largest_share, b.largest_share);
         judge(one, test_difference(a, b, own), own);
-        take_worse(worst, one);
+        channels.push_back(one);
     }
-    result = worst;
+    result = worst_of(channels);
 }
 
 void judge_message(CheckResult& result, const Fact& fact, const std::vector<std::string>& messages)

@@ -139,6 +139,9 @@ ExpectedFact parse_fact(const json::Value& value)
         fact.scene = fields.string("scene");
         fact.specialized = fields.boolean("specialized");
         fact.share = fields.number("share");
+        if (fact.scene.empty() && fact.overrides.empty() && !fact.specialized)
+            throw SceneError(fact.location, "a picture is the same as itself: this fact needs \"scene\", \"overrides\" "
+                                            "or \"specialized\"");
     }
     return fact;
 }

@@ -15,7 +15,6 @@ namespace etendue
 {
 namespace
 {
-// A name in the table of variables needs an address; nobody writes to it.
 double round_to_float(double x)
 {
     return static_cast<double>(static_cast<float>(x));
@@ -59,14 +58,19 @@ double evaluate_with(const FormulaText& formula, std::map<std::string, double> v
         throw SceneError(formula.location, unknown_name("name in a formula", name, known));
     }
     double result = 0.0;
+    int results = 1;
     try {
         mu::Parser parser;
         prepare(parser, formula);
         for (auto& [name, value] : values) parser.DefineVar(name, &value);
         result = parser.Eval();
+        results = parser.GetNumResults();
     } catch (const mu::ParserError& error) {
         fail(formula, error);
     }
+    if (results != 1)
+        throw SceneError(formula.location, fmt::format("\"{}\" is {} numbers, not one (0.5 has a point, not a comma)",
+                                                       formula.text, results));
     if (!std::isfinite(result))
         throw SceneError(formula.location, fmt::format("\"{}\" is {}, not a finite number", formula.text, result));
     return result;

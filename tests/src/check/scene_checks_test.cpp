@@ -102,7 +102,7 @@ TEST_CASE("statistical facts are counted for the family", "[host]")
 {
     SceneFolder folder;
     folder.add("scene.json", room(R"({"subject": "mean", "value": 4}, {"subject": "mean", "value": [4, 4, 4]},
-        {"subject": "pixels", "value": 4}, {"subject": "same", "rule": "stat"}, {"subject": "mean", "rule": "round", "value": 4})",
+        {"subject": "pixels", "value": 4}, {"subject": "same", "rule": "stat", "specialized": true}, {"subject": "mean", "rule": "round", "value": 4})",
                                   R"("group": "analytic", "tier": "long",)"));
     const Check check = folder.check("scene.json");
     CHECK(check.statistical_tests == 1 + 3 + 3);

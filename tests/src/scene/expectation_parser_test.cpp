@@ -73,7 +73,7 @@ TEST_CASE("every subject has its usual rule", "[host]")
     CHECK(parse_fact(R"({"subject": "relative_variance", "value": 1})").rule == Rule::stat);
     CHECK(parse_fact(R"({"subject": "second_moment", "value": 1})").subject == Subject::second_moment);
     CHECK(parse_fact(R"({"subject": "rays", "value": 1})").rule == Rule::count);
-    CHECK(parse_fact(R"({"subject": "same"})").rule == Rule::exact);
+    CHECK(parse_fact(R"({"subject": "same", "specialized": true})").rule == Rule::exact);
     CHECK(parse_fact(R"({"subject": "load_error", "text": "x"})").subject == Subject::load_error);
     CHECK(parse_fact(R"({"subject": "warning", "text": "x"})").subject == Subject::warning);
 }
@@ -124,6 +124,8 @@ TEST_CASE("what a fact cannot be is an error at its place", "[host]")
     CHECK_THAT(fact_error(R"({"subject": "pixels", "value": 1, "rule": "stat"})"), Contains("unknown rule \"stat\""));
     CHECK_THAT(fact_error(R"({"subject": "mean", "value": 1, "or": 0})"), Contains("unknown fact key \"or\""));
     CHECK_THAT(fact_error(R"({"subject": "same", "overrides": "x=1"})"), Contains("must be a list of strings"));
+    // It could not fail.
+    CHECK_THAT(fact_error(R"({"subject": "same", "rule": "stat"})"), Contains("the same as itself"));
     CHECK_THAT(fact_error(R"({"subject": "same", "overrides": [1]})"),
                Contains("/overrides/0: must be a string, is 1"));
     CHECK_THAT(fact_error(R"({"subject": "same", "share": 2})"), Contains("must be between 0 and 1"));

@@ -46,6 +46,11 @@ TEST_CASE("a formula is arithmetic with functions and constants", "[host]")
     CHECK(value("1e-12") == 1e-12);
 }
 
+TEST_CASE("a comma makes two formulas, which are not a number", "[host]")
+{
+    CHECK_THAT(error_of([] { value("0,5"); }), Contains("test.json:7:3") && Contains("\"0,5\" is 2 numbers, not one"));
+}
+
 TEST_CASE("float rounds to single precision", "[host]")
 {
     CHECK(value("float(0.1)") == static_cast<double>(0.1f));
