@@ -17,7 +17,7 @@ STATIC MaterialLanes load_material(SceneView view, Uint material, Mask active)
     return m;
 }
 
-/* Each of the four asks every kind that is compiled in and that some active lane has met. Lanes of a Mask `mine` take
+/* Each of the five asks every kind that is compiled in and that some active lane has met. Lanes of a Mask `mine` take
  * what their kind answers. */
 #define BSDF_MINE(NAME) (active & (m.type == BSDF_##NAME))
 #define BSDF_PARAMETERS(name) name##_load(view.parameters, m.first_parameter, mine)
@@ -58,6 +58,23 @@ STATIC BsdfSample bsdf_sample(SceneView view, MaterialLanes m, Mask active, Vec3
     }
     BSDF_LIST(BSDF_SAMPLE)
     return sample;
+}
+
+/* The random numbers of which bsdf_sample makes wi. Checks call it in double precision. */
+STATIC BsdfInverse bsdf_invert(SceneView view, MaterialLanes m, Mask active, Vec3 wo, Vec3 wi)
+{
+    BsdfInverse inverse = no_bsdf_inverse();
+#define BSDF_INVERT(NAME, name, text)                                                                                  \
+    if (HAS_##NAME) {                                                                                                  \
+        Mask mine = BSDF_MINE(NAME);                                                                                   \
+        if (any_of(mine)) {                                                                                            \
+            BsdfInverse answer = name##_invert(BSDF_PARAMETERS(name), wo, wi);                                         \
+            inverse.u = mine ? answer.u : inverse.u;                                                                   \
+            inverse.v = mine ? answer.v : inverse.v;                                                                   \
+        }                                                                                                              \
+    }
+    BSDF_LIST(BSDF_INVERT)
+    return inverse;
 }
 
 /* Colour for a denoiser: what the surface reflects of white light from everywhere, roughly. */

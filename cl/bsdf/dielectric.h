@@ -28,6 +28,10 @@ STATIC Float dielectric_pdf(DielectricParameters p, Vec3 wo, Vec3 wi)
 {
     return (Float)(0.0);
 }
+STATIC BsdfInverse dielectric_invert(DielectricParameters p, Vec3 wo, Vec3 wi)
+{
+    return no_bsdf_inverse();
+}
 
 /* Choose reflection with probability R, by an integer threshold; the weight is f |cos| / probability: the tint, but for
  * what the integer cannot hold. Radiance is scaled by 1 / eta^2 on refraction (Veach 1997, section 5.2). */

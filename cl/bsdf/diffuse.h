@@ -30,6 +30,16 @@ STATIC Float diffuse_pdf(DiffuseParameters p, Vec3 wo, Vec3 wi)
     return same_hemisphere(wo, wi) ? abs_of(wi.z) * INV_PI : (Float)(0.0);
 }
 
+STATIC BsdfInverse diffuse_invert(DiffuseParameters p, Vec3 wo, Vec3 wi)
+{
+    BsdfInverse inverse;
+    cosine_hemisphere_invert(wi, &inverse.u, &inverse.v);
+    Mask sampled = same_hemisphere(wo, wi);
+    inverse.u = sampled ? inverse.u : (Float)(-1.0);
+    inverse.v = sampled ? inverse.v : (Float)(-1.0);
+    return inverse;
+}
+
 STATIC BsdfSample diffuse_sample(DiffuseParameters p, Vec3 wo, RandomBlock random)
 {
     Vec3 up = cosine_hemisphere_sample(uniform_float(random.x), uniform_float(random.y));

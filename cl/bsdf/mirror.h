@@ -26,6 +26,10 @@ STATIC Float mirror_pdf(MirrorParameters p, Vec3 wo, Vec3 wi)
 {
     return (Float)(0.0);
 }
+STATIC BsdfInverse mirror_invert(MirrorParameters p, Vec3 wo, Vec3 wi)
+{
+    return no_bsdf_inverse();
+}
 
 STATIC BsdfSample mirror_sample(MirrorParameters p, Vec3 wo, RandomBlock random)
 {

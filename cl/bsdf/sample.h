@@ -30,6 +30,17 @@ STATIC BsdfSample choose_bsdf_sample(Mask m, BsdfSample a, BsdfSample b)
     return sample;
 }
 
+/* The random numbers u and v of which sampling makes a direction. */
+typedef struct BsdfInverse {
+    Float u, v; /* -1: none, the density there is 0 or the lobe a delta */
+} BsdfInverse;
+
+STATIC BsdfInverse no_bsdf_inverse(void)
+{
+    BsdfInverse inverse = {(Float)(-1.0), (Float)(-1.0)};
+    return inverse;
+}
+
 /* A colour from three parameters. */
 STATIC Color load_color(global const real* parameters, Uint first, Mask active)
 {

@@ -11,6 +11,13 @@ STATIC Vec3 cosine_hemisphere_sample(Float u, Float v)
     Float r = sqrt(v);
     return vec3(r * cosine, r * sine, sqrt(1.0 - v));
 }
+/* The u and v that give w. */
+STATIC void cosine_hemisphere_invert(Vec3 w, Float* u, Float* v)
+{
+    Float turn = atan2pi(w.y, w.x) * 0.5;
+    *u = turn < 0.0 ? turn + 1.0 : turn;
+    *v = w.x * w.x + w.y * w.y;
+}
 /* Per solid angle. */
 STATIC Float cosine_hemisphere_pdf(Vec3 w)
 {

@@ -3,6 +3,7 @@
 #include "check/bsdf_checks.h"
 
 #include "check/bsdf_suite.h"
+#include "check/equal_mass_bins.h"
 #include "check/findings.h"
 #include "scene/material_parser.h"
 #include "util/statistics.h"
@@ -21,9 +22,9 @@ namespace
 constexpr double PI = std::numbers::pi;
 constexpr double ROUNDOFF = 0x1p-24;
 constexpr uint LAST = 0xffffffffu;
-// Bins and directions of the histograms.
-constexpr std::size_t BINS = 16;
-constexpr std::size_t HISTOGRAMS = 2;
+// Of the histograms.
+constexpr std::size_t BINS = 64 * 128;
+constexpr std::size_t HISTOGRAM_SAMPLES = std::size_t{1} << 22;
 
 using Results = std::vector<CheckResult>;
 
@@ -93,6 +94,47 @@ Results check_weights(const CheckContext& context, const std::string& name, cons
         }
     }
     return {violations.result(name, Rule::bound)};
+}
+
+// What the random numbers would have to be for the direction that single precision makes of them, by the inverse in
+// double precision: themselves, but for some roundings and what the direction's own roundings do to the inverse.
+Results check_inversion(const CheckContext& context, const std::string& name, const std::vector<BsdfCase>& cases)
+{
+    constexpr double ROUNDINGS = 4;
+    const DeviceInfo& device = context.device->info();
+    if (!device.has_double) return {needs_double(name, Rule::bound, device)};
+    const auto count = static_cast<std::size_t>(4096 * context.effort);
+    const std::vector<RandomWords> random = random_words(count, context.seed + 23);
+    WorstError worst;
+    Violations violations;
+    for (const BsdfCase& bsdf : cases) {
+        const DeviceBsdf on_device(*context.device, bsdf, context.lanes);
+        for (const Direction& wo : standard_directions()) {
+            worst.set_subject(from(bsdf, wo));
+            violations.set_subject(from(bsdf, wo));
+            const std::vector<Direction> wi = directions_of(on_device.sample({wo}, random));
+            const auto numbers = on_device.invert_in_double(wo, wi);
+            // Round each component of the directions once more.
+            std::vector<std::array<double, 2>> conditions(count);
+            for (std::size_t k = 0; k < 3; ++k) {
+                std::vector<Direction> rounded = wi;
+                for (Direction& w : rounded) w[k] = std::nextafter(w[k], 2.0f);
+                const auto moved = on_device.invert_in_double(wo, rounded);
+                for (std::size_t i = 0; i < count; ++i)
+                    for (std::size_t j = 0; j < 2; ++j)
+                        conditions[i][j] += std::abs(std::remainder(double{moved[i][j]} - numbers[i][j], 1.0));
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                violations.expect(numbers[i][0] >= 0 && numbers[i][1] >= 0, "no inverse");
+                for (std::size_t j = 0; j < 2; ++j) {
+                    const double given = (random[i][j] >> 8) * ROUNDOFF;
+                    const double error = std::abs(std::remainder(numbers[i][j] - given, 1.0));
+                    worst.add(error / (ROUNDINGS * (ROUNDOFF + conditions[i][j])));
+                }
+            }
+        }
+    }
+    return {worst.result(name, 1.0, "of what 4 roundings do"), violations.result(name + "-exists")};
 }
 
 // Squares of the random numbers' plane become patches of the sphere: their size is the square's over the density. Asked
@@ -195,33 +237,27 @@ Results check_integrals(const CheckContext& context, const std::string& name, co
             energy.result(name + "-energy", 1 + 1e-4, "of what arrives")};
 }
 
-// Samples are distributed as the density says, in bins of cosine and azimuth.
+// Samples are distributed as the density says, in bins that other samples have cut. The cases take turns in what they
+// are seen from: steeply from above, at a slant from below.
 Results check_distribution(const CheckContext& context, const std::string& name, const std::vector<BsdfCase>& cases)
 {
-    constexpr std::size_t FINER = 16;
-    const auto count = static_cast<std::size_t>((1 << 19) * context.effort);
-    const std::vector<Direction> grid = sphere_grid(BINS * FINER, BINS * FINER);
-    const std::vector<RandomWords> random = random_words(count, context.seed + 17);
+    constexpr std::size_t BATCH = std::size_t{1} << 16; // what a cache holds
+    const auto batches = static_cast<std::size_t>(std::ceil(HISTOGRAM_SAMPLES * context.effort / BATCH));
+    const Direction directions[] = {direction(0.9, 1), direction(-0.2, 4)};
     DistributionTests tests(context);
-    for (const BsdfCase& bsdf : cases) {
-        const DeviceBsdf on_device(*context.device, bsdf, context.lanes);
-        const Direction directions[HISTOGRAMS] = {direction(0.9, 1), direction(-0.2, 4)};
-        for (const Direction& wo : directions) {
-            // Integrate the density over each bin.
-            std::vector<double> probabilities(BINS * BINS);
-            const std::vector<float> pdf = on_device.evaluate({wo}, grid).pdf;
-            for (std::size_t i = 0; i < grid.size(); ++i) {
-                const std::size_t row = i / (BINS * FINER) / FINER, column = i % (BINS * FINER) / FINER;
-                probabilities[row * BINS + column] += pdf[i] * 4 * PI / static_cast<double>(grid.size());
-            }
-            // Count the samples in it.
-            Histogram histogram(BINS, BINS);
-            for (const auto& s : on_device.sample({wo}, random)) {
-                const double turn = std::atan2(s.wi[1], s.wi[0]) / (2 * PI);
-                histogram.add(turn - std::floor(turn), std::min(1.0, 0.5 * (1.0 + s.wi[2])));
-            }
-            tests.add(from(bsdf, wo), histogram, probabilities);
+    for (std::size_t i = 0; i < cases.size() && !context.stop(); ++i) {
+        const DeviceBsdf on_device(*context.device, cases[i], context.lanes);
+        const Direction& wo = directions[i % 2];
+        const auto pilot = directions_of(on_device.sample({wo}, random_words(32 * BINS, context.seed + 31)));
+        const EqualMassBins bins(pilot, BINS);
+        const std::vector<double> probabilities =
+            bins.integrate([&](const std::vector<Direction>& wi) { return on_device.evaluate({wo}, wi).pdf; });
+        std::vector<double> counts(bins.count());
+        for (std::size_t batch = 0; batch < batches; ++batch) {
+            const auto random = random_words(BATCH, context.seed + 1000 + batch);
+            for (const auto& s : on_device.sample({wo}, random)) ++counts[bins.bin_of(s.wi)];
         }
+        tests.add(from(cases[i], wo), counts, 0.0, probabilities);
     }
     return {tests.result(name)};
 }
@@ -335,10 +371,11 @@ std::vector<Check> bsdf_checks()
             continue;
         }
         add("weight", check_weights);
+        add("inversion", check_inversion);
         add("jacobian", check_jacobian);
         add("reciprocity", check_reciprocity);
         add("integral", check_integrals, cases * standard_directions().size() * 4);
-        add("distribution", check_distribution, cases * HISTOGRAMS);
+        add("distribution", check_distribution, cases);
     }
     for (Check& check : fresnel_checks()) checks.push_back(std::move(check));
     return checks;

@@ -42,6 +42,21 @@ const DeviceFunctions& functions()
     return all;
 }
 
+const DeviceFunctions& functions_in_double()
+{
+    static const DeviceFunctions all = [] {
+        Specialization features = Specialization::everything(1, 64);
+        features.precision = Precision::fp64;
+        return DeviceFunctions({"bsdf/bsdf.h"},
+                               {{"invert", "Material* real* uint float float float float float float -> float float",
+                                 std::string(LOAD_MATERIAL) +
+                                     "BsdfInverse inverse = bsdf_invert(view, m, active, wo, vec3(in6, in7, in8));\n"
+                                     "out0 = inverse.u; out1 = inverse.v;\n"}},
+                               "", features);
+    }();
+    return all;
+}
+
 // One list per component.
 template<typename T, std::size_t N>
 void append_components(std::vector<DeviceArgument>& arguments, const std::vector<std::array<T, N>>& vectors)
@@ -53,11 +68,12 @@ void append_components(std::vector<DeviceArgument>& arguments, const std::vector
     }
 }
 
+template<typename Real>
 std::vector<DeviceArgument> material_arguments(const std::vector<BsdfCase>& cases, const std::vector<uint>& which,
                                                const std::vector<Direction>& wo)
 {
     std::vector<Material> materials;
-    std::vector<float> parameters;
+    std::vector<Real> parameters;
     for (const BsdfCase& c : cases) {
         materials.push_back({static_cast<uint>(c.type), 0, static_cast<uint>(parameters.size()), 0});
         parameters.insert(parameters.end(), c.parameters.begin(), c.parameters.end());
@@ -123,7 +139,7 @@ std::vector<Direction> standard_directions()
 DeviceBsdf::Evaluation DeviceBsdf::evaluate(std::vector<Direction> wo, const std::vector<Direction>& wi) const
 {
     if (wo.size() == 1) wo.resize(wi.size(), wo[0]);
-    std::vector<DeviceArgument> arguments = material_arguments({bsdf_}, std::vector<uint>(wi.size(), 0), wo);
+    std::vector<DeviceArgument> arguments = material_arguments<float>({bsdf_}, std::vector<uint>(wi.size(), 0), wo);
     append_components(arguments, wi);
     const DeviceResults results = functions().evaluate(device_, "evaluate", arguments, lanes_);
     Evaluation evaluation{std::vector<std::array<float, 3>>(wi.size()), results.get<float>(3)};
@@ -138,7 +154,7 @@ std::vector<DeviceBsdf::Sample> DeviceBsdf::sample(std::vector<Direction> wo,
                                                    const std::vector<RandomWords>& random) const
 {
     if (wo.size() == 1) wo.resize(random.size(), wo[0]);
-    std::vector<DeviceArgument> arguments = material_arguments({bsdf_}, std::vector<uint>(random.size(), 0), wo);
+    std::vector<DeviceArgument> arguments = material_arguments<float>({bsdf_}, std::vector<uint>(random.size(), 0), wo);
     append_components(arguments, random);
     const DeviceResults results = functions().evaluate(device_, "sample", arguments, lanes_);
     std::vector<std::vector<float>> out;
@@ -154,13 +170,26 @@ std::vector<DeviceBsdf::Sample> DeviceBsdf::sample(std::vector<Direction> wo,
     return samples;
 }
 
+std::vector<std::array<float, 2>> DeviceBsdf::invert_in_double(const Direction& wo,
+                                                               const std::vector<Direction>& wi) const
+{
+    std::vector<DeviceArgument> arguments =
+        material_arguments<double>({bsdf_}, std::vector<uint>(wi.size(), 0), std::vector<Direction>(wi.size(), wo));
+    append_components(arguments, wi);
+    const DeviceResults results = functions_in_double().evaluate(device_, "invert", arguments);
+    const std::vector<float> u = results.get<float>(0), v = results.get<float>(1);
+    std::vector<std::array<float, 2>> numbers;
+    for (std::size_t i = 0; i < wi.size(); ++i) numbers.push_back({u[i], v[i]});
+    return numbers;
+}
+
 std::vector<std::vector<std::uint32_t>> sample_and_evaluate(const Device& device, const std::vector<BsdfCase>& cases,
                                                             const std::vector<uint>& which,
                                                             const std::vector<Direction>& wo,
                                                             const std::vector<Direction>& wi,
                                                             const std::vector<RandomWords>& random, std::uint32_t lanes)
 {
-    std::vector<DeviceArgument> sampling = material_arguments(cases, which, wo), evaluation = sampling;
+    std::vector<DeviceArgument> sampling = material_arguments<float>(cases, which, wo), evaluation = sampling;
     append_components(sampling, random);
     append_components(evaluation, wi);
     auto outputs = functions().evaluate(device, "sample", sampling, lanes).outputs;

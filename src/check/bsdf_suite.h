@@ -1,8 +1,9 @@
-// BSDFs on a device, whatever they are: what is asked of one are bsdf_evaluate, bsdf_pdf and bsdf_sample; its
-// parameters, their ranges and whether it is a delta lobe come from the parameter table of the materials.
+// BSDFs on a device, whatever they are: what is asked of one are bsdf_evaluate, bsdf_pdf, bsdf_sample and bsdf_invert;
+// its parameters, their ranges and whether it is a delta lobe come from the parameter table of the materials.
 #pragma once
 
 #include "check/device_functions.h"
+#include "check/direction.h"
 #include "check/random_words.h"
 #include "compute/device.h"
 #include "math/shared.h"
@@ -22,8 +23,6 @@ struct BsdfCase {
 
 // Defaults, the corners of the parameters' ranges, and random ones between.
 std::vector<BsdfCase> bsdf_cases(BsdfType type);
-
-using Direction = std::array<float, 3>;
 
 // The unit vector of this cosine and azimuth.
 Direction direction(double z, double phi);
@@ -59,6 +58,9 @@ public:
     };
     // The direction takes two words of the random numbers, the choice of a lobe the third.
     std::vector<Sample> sample(std::vector<Direction> wo, const std::vector<RandomWords>& random) const;
+
+    // The two words' numbers that give each wi, computed in double precision, which the device must have; -1 for none.
+    std::vector<std::array<float, 2>> invert_in_double(const Direction& wo, const std::vector<Direction>& wi) const;
 
 private:
     const Device& device_;

@@ -24,6 +24,15 @@ Programs& built_programs()
     return all;
 }
 
+// A Float, of single precision in either kind of program, as a word of a buffer.
+const char* const FLOAT_WORDS = "#if REAL_IS_DOUBLE\n"
+                                "#define float_from_word(word) ((Float)as_float(word))\n"
+                                "#define word_of_float(x) as_uint((float)(x))\n"
+                                "#else\n"
+                                "#define float_from_word(word) from_bits(word)\n"
+                                "#define word_of_float(x) uint_bits(x)\n"
+                                "#endif\n";
+
 struct Signature {
     std::vector<std::string> inputs, outputs;
 };
@@ -58,7 +67,7 @@ std::string lane_type(std::string type)
 
 std::string from_words(const std::string& type, const std::string& words)
 {
-    if (type == "float") return fmt::format("from_bits({})", words);
+    if (type == "float") return fmt::format("float_from_word({})", words);
     if (type == "int") return fmt::format("int_bits({})", words);
     if (type == "mask") return fmt::format("({} != (Uint)(0u))", words);
     return words;
@@ -67,6 +76,7 @@ std::string from_words(const std::string& type, const std::string& words)
 std::string to_words(const std::string& type, const std::string& value)
 {
     if (type == "mask") return fmt::format("({} ? (Uint)(1u) : (Uint)(0u))", value);
+    if (type == "float") return fmt::format("word_of_float({})", value);
     return type == "uint" ? value : fmt::format("uint_bits({})", value);
 }
 
@@ -177,6 +187,7 @@ DeviceFunctions::~DeviceFunctions()
 std::string DeviceFunctions::source() const
 {
     std::string text = "#include \"math/lanes.h\"\n#include \"shared/structs.h\"\n";
+    text += FLOAT_WORDS;
     for (const std::string& part : parts_) text += fmt::format("#include \"{}\"\n", part);
     text += definitions_ + '\n';
     for (const DeviceFunction& function : functions_) text += kernel_text(function);
@@ -194,7 +205,8 @@ DeviceResults DeviceFunctions::evaluate(const Device& device, const std::string&
 
     // Build the program at its first use.
     Specialization features = features_;
-    features.lanes = lanes ? lanes : device.preferred_lanes();
+    const std::uint32_t suitable = features.precision == Precision::fp64 ? 1 : device.preferred_lanes();
+    features.lanes = lanes ? lanes : suitable;
     Programs& programs = built_programs();
     const auto key = std::tuple(this, &device, features.lanes);
     if (!programs.contains(key))

@@ -70,7 +70,8 @@ class DeviceFunctions
 {
 public:
     // `parts` are included in order after math/lanes.h and shared/structs.h. `definitions` is OpenCL C before the
-    // functions; `features` is everything unless given (its lanes are ignored).
+    // functions; `features` is everything unless given (its lanes are ignored). In double precision, which has one
+    // lane, values are still passed as float and `real*` is an array of doubles.
     DeviceFunctions(std::vector<std::string> parts, std::vector<DeviceFunction> functions, std::string definitions = "",
                     Specialization features = Specialization::everything(1, 64));
     ~DeviceFunctions();

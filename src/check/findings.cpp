@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -37,6 +38,16 @@ Check make_check(const std::string& group, const std::string& name,
         return results;
     };
     return {group, name, is_long, statistical_tests, timed};
+}
+
+CheckResult needs_double(const std::string& name, Rule rule, const DeviceInfo& device)
+{
+    CheckResult result;
+    result.name = name;
+    result.rule = rule;
+    result.verdict = Verdict::not_covered;
+    result.note = device.name + " has no double precision (cl_khr_fp64)";
+    return result;
 }
 
 void Violations::add(const char* what, std::size_t count)
@@ -99,15 +110,21 @@ CheckResult WorstError::result(const std::string& name, double limit, const std:
 void DistributionTests::add(const std::string& subject, const Histogram& histogram,
                             const std::vector<double>& probabilities)
 {
-    const double samples = histogram.total();
+    add(subject, histogram.counts(), histogram.outside(), probabilities);
+}
+
+void DistributionTests::add(const std::string& subject, const std::vector<double>& counts, double outside,
+                            const std::vector<double>& probabilities)
+{
+    const double samples = std::accumulate(counts.begin(), counts.end(), outside);
     std::vector<double> expected;
-    double sum = 0.0, where_none = histogram.outside();
+    double sum = 0.0, where_none = outside;
     for (std::size_t i = 0; i < probabilities.size(); ++i) {
         expected.push_back(probabilities[i] * samples);
         sum += probabilities[i];
-        if (probabilities[i] == 0.0) where_none += histogram.counts()[i];
+        if (probabilities[i] == 0.0) where_none += counts[i];
     }
-    const ChiSquare test = chi_square(histogram.counts(), expected, level_);
+    const ChiSquare test = chi_square(counts, expected, level_);
     if (tests_++ == 0 || test.p_value < least_p_) {
         least_p_ = test.p_value;
         worst_subject_ = subject;

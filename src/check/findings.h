@@ -2,6 +2,7 @@
 #pragma once
 
 #include "check/check.h"
+#include "compute/device.h"
 #include "util/chi_square.h"
 
 #include <string>
@@ -14,6 +15,9 @@ namespace etendue
 Check make_check(const std::string& group, const std::string& name,
                  std::function<std::vector<CheckResult>(const CheckContext&)> run, std::size_t statistical_tests = 0,
                  bool is_long = false);
+
+// What a check that needs double precision says on a device without it.
+CheckResult needs_double(const std::string& name, Rule rule, const DeviceInfo& device);
 
 // Trials of which none may go wrong.
 class Violations
@@ -71,6 +75,9 @@ public:
     }
 
     void add(const std::string& subject, const Histogram& histogram, const std::vector<double>& probabilities);
+    // Counts of samples by bin, and of those in none.
+    void add(const std::string& subject, const std::vector<double>& counts, double outside,
+             const std::vector<double>& probabilities);
     CheckResult result(const std::string& name) const;
 
 private:

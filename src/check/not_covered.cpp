@@ -24,7 +24,6 @@ const Gap GAPS[] = {
     {"G1-exact-predicates", "rays are compared with testing every primitive in the same arithmetic, not in exact one"},
     {"I1-16384-x-16384", "films beyond 4096 pixels are tested by the unit tests alone"},
     {"I2-picture-files", "EXR, PNG and HDR are tested by the unit tests alone"},
-    {"N3-samplers", "correlations are looked for in the independent sampler; the others have unit tests"},
     {"N4-picture-at-sample-2-to-32", "numbers beyond 2^32 are checked, a picture that begins there is not"},
     {"R1-crossing-parity", "closed meshes are shot at from inside only"},
     {"S4-visits", "needs a builder by the surface area heuristic to compare visits of nodes with"},

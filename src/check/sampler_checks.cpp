@@ -2,6 +2,7 @@
 #include "check/device_functions.h"
 #include "check/findings.h"
 #include "check/sampling_checks.h"
+#include "util/statistics.h"
 
 #include <array>
 
@@ -41,32 +42,29 @@ std::vector<Place> places()
     return all;
 }
 
+Words stream(const CheckContext& context, std::uint32_t sampler, std::uint32_t replicates, std::uint32_t sample_high)
+{
+    return {static_cast<std::uint32_t>(context.seed) + 7u, static_cast<std::uint32_t>(context.seed >> 32), sample_high,
+            sampler, replicates};
+}
+
+// The four words of each block.
+std::vector<Words> blocks(const CheckContext& context, const Words& stream, const Words& pixels, const Words& samples,
+                          const Words& dimensions)
+{
+    return functions().evaluate(*context.device, "block", {stream, pixels, samples, dimensions}, context.lanes).outputs;
+}
+
 // The two points of each sample's block: two lists.
 std::array<Points, 2> points(const CheckContext& context, std::uint32_t sampler, std::uint32_t replicates,
                              const Place& place, const Words& samples)
 {
-    const Words stream{static_cast<std::uint32_t>(context.seed) + 7u, static_cast<std::uint32_t>(context.seed >> 32),
-                       place.sample_high, sampler, replicates};
-    const auto out =
-        functions()
-            .evaluate(*context.device, "block",
-                      {stream, Words(samples.size(), place.pixel), samples, Words(samples.size(), place.dimension)},
-                      context.lanes)
-            .outputs;
+    const auto out = blocks(context, stream(context, sampler, replicates, place.sample_high),
+                            Words(samples.size(), place.pixel), samples, Words(samples.size(), place.dimension));
     std::array<Points, 2> pairs;
     for (std::size_t i = 0; i < samples.size(); ++i)
         for (std::size_t pair = 0; pair < 2; ++pair) pairs[pair].push_back({out[2 * pair][i], out[2 * pair + 1][i]});
     return pairs;
-}
-
-// The samples whose places in the sequence of a replicate are 0, 1, ..., count - 1.
-Words samples_of_replicate(std::uint32_t replicate, std::uint32_t replicates, std::uint32_t count)
-{
-    Words samples(count);
-    for (std::uint32_t i = 0; i < count; ++i)
-        samples[i] = i / SAMPLES_PER_BLOCK * SAMPLES_PER_BLOCK * replicates + replicate * SAMPLES_PER_BLOCK +
-                     i % SAMPLES_PER_BLOCK;
-    return samples;
 }
 
 // Whether `count` = 2^m points from `first` on have one in each of the 2^m intervals of 2^-a by 2^(a-m).
@@ -117,10 +115,88 @@ Results check_cells(const CheckContext& context)
     }
     return {violations.result("stratified-cells")};
 }
+
+// A number of a sample: which word of which block, told from the pixel and the sample at hand.
+struct NumberChoice {
+    std::uint32_t word = 0, dimension = 0;
+    std::uint32_t pixels_on = 0, samples_on = 0;
+    std::uint32_t sample_high = 0, seed_on = 0;
+};
+
+// Numbers that nothing may tie to the first word of dimension 0 of the same sample of the same pixel.
+const std::vector<std::pair<const char*, NumberChoice>>& other_numbers()
+{
+    static const std::vector<std::pair<const char*, NumberChoice>> all{
+        {"the second word of the point", {.word = 1}},
+        {"the block's second point", {.word = 2}},
+        {"the last word of the block", {.word = 3}},
+        {"the next dimension", {.dimension = 1}},
+        {"the second word of the next dimension", {.word = 1, .dimension = 1}},
+        {"the next vertex", {.dimension = 1024}},
+        {"a vertex deep in the path", {.dimension = 1024u * 128u}},
+        {"the next pixel", {.pixels_on = 1}},
+        {"a pixel far away", {.pixels_on = 1u << 20}},
+        {"the other replicate", {.samples_on = SAMPLES_PER_BLOCK}},
+        {"2^32 samples later", {.sample_high = 1}},
+        {"the next seed", {.seed_on = 1}}};
+    return all;
+}
+
+// The mean of the product of two independent numbers of [0, 1) is 1/4. Samples of a pixel depend on each other: pixels
+// are the independent trials.
+Results check_correlation(const CheckContext& context, std::uint32_t sampler, const std::string& name)
+{
+    const auto pixel_count = static_cast<std::uint32_t>((1 << 15) * context.effort);
+    constexpr std::uint32_t SAMPLES = SAMPLES_PER_BLOCK;
+    const auto numbers = [&](const NumberChoice& choice) {
+        Words pixels, samples;
+        for (std::uint32_t p = 0; p < pixel_count; ++p)
+            for (std::uint32_t s = 0; s < SAMPLES; ++s) {
+                pixels.push_back(2 * p + choice.pixels_on);
+                samples.push_back(s + choice.samples_on);
+            }
+        Words from = stream(context, sampler, 2, choice.sample_high);
+        from[0] += choice.seed_on;
+        return blocks(context, from, pixels, samples, Words(pixels.size(), choice.dimension))[choice.word];
+    };
+    const Words first = numbers({});
+    ExpectedMeans products(context);
+    for (const auto& [text, choice] : other_numbers()) {
+        const Words second = numbers(choice);
+        RunningStatistics means;
+        for (std::size_t p = 0; p < pixel_count; ++p) {
+            double sum = 0.0;
+            for (std::size_t i = p * SAMPLES; i < (p + 1) * SAMPLES; ++i)
+                sum += (first[i] * 0x1p-32) * (second[i] * 0x1p-32);
+            means.add(sum / SAMPLES);
+        }
+        products.add(text, means.mean(), means.standard_error(), 0.25, 0x1p-32);
+    }
+    return {products.result(name)};
+}
 } // namespace
+
+std::vector<std::uint32_t> samples_of_replicate(std::uint32_t replicate, std::uint32_t replicates, std::uint32_t count)
+{
+    std::vector<std::uint32_t> samples(count);
+    for (std::uint32_t i = 0; i < count; ++i)
+        samples[i] = i / SAMPLES_PER_BLOCK * SAMPLES_PER_BLOCK * replicates + replicate * SAMPLES_PER_BLOCK +
+                     i % SAMPLES_PER_BLOCK;
+    return samples;
+}
 
 std::vector<Check> sampler_checks()
 {
-    return {make_check("sampling", "sobol-nets", check_nets), make_check("sampling", "stratified-cells", check_cells)};
+    std::vector<Check> checks{make_check("sampling", "sobol-nets", check_nets),
+                              make_check("sampling", "stratified-cells", check_cells)};
+    const auto add_correlation = [&](std::uint32_t sampler, const std::string& name) {
+        checks.push_back(make_check(
+            "sampling", name, [=](const CheckContext& context) { return check_correlation(context, sampler, name); },
+            other_numbers().size()));
+    };
+#define ADD_CORRELATION(NAME, name, text) add_correlation(SAMPLER_##NAME, #name "-correlation");
+    SAMPLER_LIST(ADD_CORRELATION)
+#undef ADD_CORRELATION
+    return checks;
 }
 } // namespace etendue

@@ -1,9 +1,9 @@
 // Paired samples in float and in double.
 #include "check/twin_checks.h"
 
+#include "check/findings.h"
 #include "scene/scene_loader.h"
 #include "util/statistics.h"
-#include "util/stopwatch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,7 +100,6 @@ CheckResult mean_result(const Pairs& pairs, const CheckContext& context)
     const double mean = pairs.twin.mean();
     const double beyond = std::max(std::abs(difference) - ROUNDING_BIAS * mean, 0.0);
     CheckResult result;
-    result.group = "device";
     result.name = "D2-mean-difference";
     result.rule = Rule::stat;
     result.expected = "0";
@@ -121,7 +120,6 @@ CheckResult mean_result(const Pairs& pairs, const CheckContext& context)
 CheckResult divergence_result(const PathDivergence& divergence)
 {
     CheckResult result;
-    result.group = "device";
     result.name = "D2-path-divergence";
     result.rule = Rule::bound;
     result.expected = fmt::format("at most {:g} of the paths at each vertex", MAX_DIVERGENCE);
@@ -143,29 +141,15 @@ CheckResult divergence_result(const PathDivergence& divergence)
     return result;
 }
 
-CheckResult not_covered(const std::string& name, Rule rule, const Device& device)
-{
-    CheckResult result;
-    result.group = "device";
-    result.name = name;
-    result.rule = rule;
-    result.verdict = Verdict::not_covered;
-    result.note = device.info().name + " has no double precision (cl_khr_fp64)";
-    return result;
-}
-
 std::vector<CheckResult> run_twin_check(const CheckContext& context)
 {
-    if (!context.device->info().has_double)
-        return {not_covered("D2-mean-difference", Rule::stat, *context.device),
-                not_covered("D2-path-divergence", Rule::bound, *context.device)};
-    const Stopwatch watch;
+    const DeviceInfo& device = context.device->info();
+    if (!device.has_double)
+        return {needs_double("D2-mean-difference", Rule::stat, device),
+                needs_double("D2-path-divergence", Rule::bound, device)};
     const Pairs pairs = trace_pairs(context);
     if (pairs.difference.count() < 2) return {}; // stopped
-    std::vector<CheckResult> results{mean_result(pairs, context), divergence_result(pairs.divergence)};
-    // Both come of the same paths.
-    for (CheckResult& result : results) result.seconds = watch.seconds() / static_cast<double>(results.size());
-    return results;
+    return {mean_result(pairs, context), divergence_result(pairs.divergence)};
 }
 } // namespace
 
@@ -189,6 +173,6 @@ void add_divergence(PathDivergence& total, const std::vector<PathRecord>& a, con
 
 std::vector<Check> twin_checks()
 {
-    return {{"device", "D2", false, 1, run_twin_check}};
+    return {make_check("device", "D2", run_twin_check, 1)};
 }
 } // namespace etendue

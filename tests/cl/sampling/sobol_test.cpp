@@ -1,5 +1,6 @@
 // Owen-scrambled Sobol points against direction numbers, and the statistics that scrambling promises; that they are
 // nets is a check (check/sampler_checks).
+#include "check/sampling_checks.h"
 #include "support/device_lanes.h"
 #include "util/statistics.h"
 
@@ -49,16 +50,6 @@ std::uint32_t sobol_by_direction_numbers(std::uint32_t index)
         direction ^= direction >> 1;
     }
     return x;
-}
-
-// The samples whose places in the sequence of a replicate are 0, 1, ..., count - 1.
-Words samples_of_replicate(std::uint32_t replicate, std::uint32_t replicates, std::uint32_t count)
-{
-    Words samples(count);
-    for (std::uint32_t i = 0; i < count; ++i)
-        samples[i] = i / SAMPLES_PER_BLOCK * SAMPLES_PER_BLOCK * replicates + replicate * SAMPLES_PER_BLOCK +
-                     i % SAMPLES_PER_BLOCK;
-    return samples;
 }
 
 double unit(std::uint32_t bits)
