@@ -1,4 +1,5 @@
-// Every BSDF of BSDF_LIST under the checks of src/check/bsdf_checks.h, and the choice among them by lane.
+// Every BSDF of BSDF_LIST under the quick ones of the checks of src/check/bsdf_checks.h, and the choice among them by
+// lane.
 #include "check/bsdf_checks.h"
 #include "check/bsdf_suite.h"
 #include "scene/material_parser.h"
@@ -30,9 +31,9 @@ TEST_CASE("the density of a BSDF integrates to 1, and it reflects by sampling wh
     require_passed(bsdf_checks(), "-integral");
 }
 
-TEST_CASE("samples of a BSDF are distributed as its density says")
+TEST_CASE("the inverse of a BSDF's sampling finds the random numbers")
 {
-    require_passed(bsdf_checks(), "-distribution");
+    require_passed(bsdf_checks(), "-inversion");
 }
 
 TEST_CASE("a BSDF is finite, not negative and without light along the surface")

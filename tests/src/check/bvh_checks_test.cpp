@@ -1,4 +1,5 @@
-// The checks of trees and rays: sound ones pass, and what is planted is found.
+// The checks of trees and rays find what is planted; that sound ones pass is what `etendue check all`, run by ctest, is
+// for.
 #include "check/bvh_checks.h"
 
 #include "support/device_checks.h"
@@ -11,11 +12,6 @@ namespace
 {
 using Names = std::vector<std::string>;
 } // namespace
-
-TEST_CASE("builders, traversal, closed meshes and origins on surfaces pass their checks")
-{
-    require_passed(bvh_checks(), "");
-}
 
 TEST_CASE("boxes that let rays slip by are found")
 {
