@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include <fmt/format.h>
@@ -25,6 +26,7 @@ constexpr uint LAST = 0xffffffffu;
 // Of the histograms.
 constexpr std::size_t BINS = 64 * 128;
 constexpr std::size_t HISTOGRAM_SAMPLES = std::size_t{1} << 22;
+constexpr std::size_t PILOT_SAMPLES = 32 * BINS;
 
 using Results = std::vector<CheckResult>;
 
@@ -64,6 +66,12 @@ std::vector<Direction> directions_of(const std::vector<DeviceBsdf::Sample>& samp
     std::vector<Direction> wi;
     for (const auto& s : samples) wi.push_back(s.wi);
     return wi;
+}
+
+// Whether a direction was sampled, and can be counted.
+bool has_direction(const DeviceBsdf::Sample& s)
+{
+    return s.pdf > 0 && is_finite(s.wi);
 }
 
 // A sample's weight is f |cos| / pdf, its density is pdf(), and it takes no energy from nowhere.
@@ -122,7 +130,7 @@ Results check_inversion(const CheckContext& context, const std::string& name, co
                 const auto moved = on_device.invert_in_double(wo, rounded);
                 for (std::size_t i = 0; i < count; ++i)
                     for (std::size_t j = 0; j < 2; ++j)
-                        conditions[i][j] += std::abs(std::remainder(double{moved[i][j]} - numbers[i][j], 1.0));
+                        conditions[i][j] += std::abs(std::remainder(moved[i][j] - numbers[i][j], 1.0));
             }
             for (std::size_t i = 0; i < count; ++i) {
                 violations.expect(numbers[i][0] >= 0 && numbers[i][1] >= 0, "no inverse");
@@ -248,16 +256,25 @@ Results check_distribution(const CheckContext& context, const std::string& name,
     for (std::size_t i = 0; i < cases.size() && !context.stop(); ++i) {
         const DeviceBsdf on_device(*context.device, cases[i], context.lanes);
         const Direction& wo = directions[i % 2];
-        const auto pilot = directions_of(on_device.sample({wo}, random_words(32 * BINS, context.seed + 31)));
-        const EqualMassBins bins(pilot, BINS);
-        const std::vector<double> probabilities =
+        // Cut bins by some samples.
+        std::vector<DeviceBsdf::Sample> some =
+            on_device.sample({wo}, random_words(PILOT_SAMPLES, context.seed + 31 + i));
+        std::erase_if(some, [](const auto& s) { return !has_direction(s); });
+        const EqualMassBins bins(directions_of(some), BINS);
+        std::vector<double> probabilities =
             bins.integrate([&](const std::vector<Direction>& wi) { return on_device.evaluate({wo}, wi).pdf; });
+        // Count others. Those that end the path are a bin of their own; what is not finite is in none.
         std::vector<double> counts(bins.count());
-        for (std::size_t batch = 0; batch < batches; ++batch) {
-            const auto random = random_words(BATCH, context.seed + 1000 + batch);
-            for (const auto& s : on_device.sample({wo}, random)) ++counts[bins.bin_of(s.wi)];
+        double ended = 0, outside = 0;
+        for (std::size_t batch = 0; batch < batches; ++batch)
+            for (const auto& s : on_device.sample({wo}, random_words(BATCH, context.seed + 1000 + i * batches + batch)))
+                ++(has_direction(s) ? counts[bins.bin_of(s.wi)] : s.pdf == 0 ? ended : outside);
+        if (ended > 0) {
+            counts.push_back(ended);
+            probabilities.push_back(
+                std::max(0.0, 1 - std::accumulate(probabilities.begin(), probabilities.end(), 0.0)));
         }
-        tests.add(from(cases[i], wo), counts, 0.0, probabilities);
+        tests.add(from(cases[i], wo), counts, outside, probabilities);
     }
     return {tests.result(name)};
 }

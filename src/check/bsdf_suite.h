@@ -60,7 +60,7 @@ public:
     std::vector<Sample> sample(std::vector<Direction> wo, const std::vector<RandomWords>& random) const;
 
     // The two words' numbers that give each wi, computed in double precision, which the device must have; -1 for none.
-    std::vector<std::array<float, 2>> invert_in_double(const Direction& wo, const std::vector<Direction>& wi) const;
+    std::vector<std::array<double, 2>> invert_in_double(const Direction& wo, const std::vector<Direction>& wi) const;
 
 private:
     const Device& device_;

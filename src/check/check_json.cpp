@@ -2,6 +2,7 @@
 #include "check/check_json.h"
 
 #include "check/table.h"
+#include "render/report.h"
 #include "util/revision.h"
 
 #include <json/json.h>
@@ -58,6 +59,7 @@ Json::Value run_json(const RunResult& run)
     json["device"]["version"] = run.device.device_version;
     json["device"]["correctly_rounded_divide"] = run.device.correctly_rounded_divide;
     json["device"]["double"] = run.device.has_double;
+    json["canary"] = run.canary ? canary_json(*run.canary) : Json::Value();
     json["seconds"] = run.seconds;
     json["interrupted"] = run.interrupted;
     json["results"] = Json::arrayValue;

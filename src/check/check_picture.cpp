@@ -16,13 +16,15 @@ namespace etendue
 {
 namespace
 {
-std::string accident_of(const RenderReport& report, const Scene& scene, const PictureChoice& choice)
+std::string accident_of(const RenderReport& report, const Scene& scene, const PictureChoice& choice,
+                        const DeviceInfo& device)
 {
     for (std::size_t kind = 0; kind < HEALTH_KINDS; ++kind) {
         const HealthRecord& record = report.health[kind];
         if (record.count == 0) continue;
         const AccidentPlace first = record.first.value_or(AccidentPlace{});
-        std::vector<std::string> options{"--spp", std::to_string(scene.sampler.samples_per_pixel)};
+        std::vector<std::string> options{"--spp", std::to_string(scene.sampler.samples_per_pixel), "--device",
+                                         std::to_string(device.index)};
         for (const std::string& override : choice.overrides) options.insert(options.end(), {"-D", override});
         if (choice.lenient) options.emplace_back("--lenient");
         return fmt::format("{} samples counted as zero because of {}, first pixel {},{} sample {} vertex {}: {}",
@@ -49,7 +51,7 @@ CheckPicture check_picture(const CheckContext& context, const LoadedScene& loade
     RenderOptions options;
     options.devices = {context.device->info()};
     options.lanes = context.lanes;
-    options.specialize = choice.specialized || context.specialize;
+    options.specialize = choice.other_kernel != context.specialize;
     options.cache = context.cache;
     Renderer renderer(scene, geometry, false, options);
     Film film(scene.film.width, scene.film.height, {0, 0, scene.film.width, scene.film.height}, false);
@@ -59,8 +61,9 @@ CheckPicture check_picture(const CheckContext& context, const LoadedScene& loade
     renderer.render(film, limits);
     renderer.store_in_cache();
 
-    CheckPicture picture{scene.film.width,  scene.film.height, {},
-                         renderer.report(), loaded.warnings,   accident_of(renderer.report(), scene, choice)};
+    CheckPicture picture{
+        scene.film.width,  scene.film.height, {},
+        renderer.report(), loaded.warnings,   accident_of(renderer.report(), scene, choice, context.device->info())};
     append(picture.warnings, geometry.warnings);
     append(picture.warnings, renderer.report().warnings);
     for (int y = 0; y < scene.film.height; ++y)

@@ -21,7 +21,7 @@ struct CheckPicture {
 
 struct PictureChoice {
     bool lenient = false;
-    bool specialized = false; // else the general kernel, which serves every scene, so that it is compiled once
+    bool other_kernel = false; // specialised where the context asks for the general kernel, and the other way round
     std::vector<std::string> overrides = {}; // with which the scene was loaded
 };
 

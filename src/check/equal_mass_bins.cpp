@@ -69,7 +69,10 @@ void EqualMassBins::add_cells(const Cell& cell, Place* first, Place* last)
         const auto [least, most] =
             std::minmax_element(first, last, [axis](const Place& a, const Place& b) { return a[axis] < b[axis]; });
         const double middle = 0.5 * (cell.low[axis] + cell.high[axis]);
-        if (cell.high[axis] - cell.low[axis] <= LARGEST_CELL * ((*most)[axis] - (*least)[axis])) continue;
+        const double patch = (*most)[axis] - (*least)[axis];
+        // Directions on one line, or as good as that, make no patch.
+        if (!(patch > 0 && cell.low[axis] < middle && middle < cell.high[axis])) continue;
+        if (cell.high[axis] - cell.low[axis] <= LARGEST_CELL * patch) continue;
         Place* const split = std::partition(first, last, [&](const Place& p) { return p[axis] < middle; });
         Cell low = cell, high = cell;
         low.high[axis] = high.low[axis] = middle;

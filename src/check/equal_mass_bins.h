@@ -15,7 +15,8 @@ class EqualMassBins
 {
 public:
     // Each side of the surface is halved at the median of the pilot's directions, in azimuth and in cosine by turns, as
-    // long as a bin holds two shares of pilot.size() / count of them. A side with none of them is one bin.
+    // long as a bin holds two shares of pilot.size() / count of them. A side with none of them is one bin. All must be
+    // finite.
     EqualMassBins(const std::vector<Direction>& pilot, std::size_t count);
 
     std::size_t count() const { return bin_count_; }

@@ -36,7 +36,7 @@ std::vector<CheckResult> run_check(const Check& check, const CheckContext& conte
     if (!fresh_seeds || !std::any_of(results.begin(), results.end(), failed_by_chance_perhaps)) return results;
 
     CheckContext again = context;
-    again.seed += RETRY_SEED;
+    again.seed = (again.seed + RETRY_SEED) & MAX_CHECK_SEED;
     again.effort *= RETRY_EFFORT;
     again.test_alpha = RETRY_ALPHA;
     std::vector<CheckResult> second = check.run(again);

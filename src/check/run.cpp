@@ -10,6 +10,17 @@ namespace etendue
 {
 namespace
 {
+// The check of the canary, where it is asked for, tells why there is none.
+std::optional<CanaryReport> canary_of(const CheckContext& context)
+{
+    if (!context.device) return {};
+    try {
+        return run_canary(*context.device, "", context.cache);
+    } catch (const Error&) {
+        return {};
+    }
+}
+
 std::vector<CheckResult> run_or_fail(const Check& check, const CheckContext& context, bool fresh_seeds)
 {
     Stopwatch watch;
@@ -46,6 +57,7 @@ RunResult run_checks(const std::vector<Check>& checks, const Family& family, con
     CheckContext context = options.context;
     context.test_alpha = family.test_alpha;
     if (context.device) run.device = context.device->info();
+    run.canary = canary_of(context);
     for (std::size_t i = 0; i < checks.size(); ++i) {
         const bool late = options.budget && watch.seconds() >= *options.budget;
         run.interrupted = run.interrupted || context.stop();

@@ -3,6 +3,7 @@
 
 #include "check/check.h"
 #include "check/family.h"
+#include "compute/canary.h"
 
 #include <functional>
 #include <optional>
@@ -25,6 +26,7 @@ struct RunResult {
     std::vector<std::string> not_run; // names of checks for which there was no time
     bool interrupted = false;
     double seconds = 0.0;
+    std::optional<CanaryReport> canary; // none when its kernel does not build
 
     std::size_t count(Verdict verdict) const;
     // Nothing failed, nothing was too weak and nothing was left out for want of time.

@@ -50,7 +50,7 @@ void list_checks(const std::vector<Check>& checks)
 std::uint64_t fresh_seed()
 {
     std::random_device source;
-    return (static_cast<std::uint64_t>(source()) << 32u) | source();
+    return ((static_cast<std::uint64_t>(source()) << 32u) | source()) & MAX_CHECK_SEED;
 }
 
 CheckContext make_context(const CheckArguments& arguments)

@@ -101,7 +101,7 @@ void add_converge_options(CLI::App& command, ConvergeArguments& a)
     command
         .add_option("--compare", a.axes,
                     "Configurations along an axis; may be given several times: integrators, samplers,\n"
-                    "roulette, accelerators, specialization, precision or devices")
+                    "roulette, accelerators, specialization, precision, fast_math or devices")
         ->type_name("AXIS")
         ->allow_extra_args(false);
     command.add_option("--device", a.device, "Device of every configuration that names none, as for render")

@@ -155,8 +155,8 @@ Configuration parse_configuration(const std::string& text)
 
 const std::vector<std::string>& comparison_axes()
 {
-    static const std::vector<std::string> axes{"integrators",    "samplers",  "roulette", "accelerators",
-                                               "specialization", "precision", "devices"};
+    static const std::vector<std::string> axes{"integrators",    "samplers",  "roulette",  "accelerators",
+                                               "specialization", "precision", "fast_math", "devices"};
     return axes;
 }
 
@@ -173,6 +173,7 @@ std::vector<Configuration> configurations_along(const std::string& axis, const S
     if (axis == "specialization")
         return along_render_option("render.specialize", {"on", "off"}, {"specialised", "general"});
     if (axis == "precision") return along_render_option("render.precision", {"single", "fp64"}, {"single", "fp64"});
+    if (axis == "fast_math") return along_render_option("render.fast_math", {"off", "on"}, {"strict", "fast-math"});
     if (axis == "devices") return along_devices(devices);
     throw UsageError("--compare: " + unknown_name("axis", axis, comparison_axes()));
 }

@@ -90,7 +90,8 @@ private:
             const RenderOptions& options = studied.prepared.options;
             std::string where = options.precision == Precision::fp64 ? "fp64" : "single";
             if (options.fast_math) where += ", fast math";
-            for (const DeviceInfo& device : options.devices) where += ", " + device.name;
+            for (const DeviceInfo& device : options.devices)
+                where += fmt::format(", device {} ({})", device.index, device.name);
             if (!checked.insert(where).second) continue;
             for (SelfCheckResult result : run_self_check(options, study_.options.stop)) {
                 result.name += " (" + where + ")";
@@ -180,6 +181,9 @@ private:
         std::vector<IntegratorType> used;
         for (const StudiedConfiguration* studied : group) used.push_back(studied->prepared.scene.integrator.type);
         options.integrator = reference_integrator(used);
+        if (std::find(used.begin(), used.end(), options.integrator) != used.end())
+            warn("Every estimator is under study: the reference has other random numbers, but the estimator of one of "
+                 "them.");
         options.stop = study_.options.stop;
         options.progress = [this](double fraction) { progress_.show(fraction); };
         progress_.begin("reference", reference_work(study_.options, last_, is_samples()));
@@ -233,10 +237,12 @@ private:
             if (!record.first) continue;
             const ReplaySample sample{record.first->x, record.first->y, record.first->sample};
             // Scenes of the course's format have no settings that -D could change.
-            if (scene.course_format && !changes.empty())
+            if (scene.course_format && !(changes.empty() && study_.options.preparation.overrides.empty()))
                 return fmt::format("pixel {},{} sample {} of seed {}", sample.x, sample.y, sample.sample, run.seed);
-            std::vector<std::string> options{"--size", fmt::format("{}x{}", scene.film.width, scene.film.height),
-                                             "--spp", std::to_string(run.rows.back().samples)};
+            std::vector<std::string> options{
+                "--size",   fmt::format("{}x{}", scene.film.width, scene.film.height),
+                "--spp",    std::to_string(run.rows.back().samples),
+                "--device", std::to_string(studied.prepared.options.devices.front().index)};
             if (studied.prepared.configuration.fast_math) options.emplace_back("--fast-math");
             for (const auto* list : {&study_.options.preparation.overrides, &changes})
                 for (const std::string& change : *list) options.insert(options.end(), {"-D", change});

@@ -18,6 +18,7 @@ void make_study_folder(const std::string& folder)
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (!std::filesystem::is_directory(folder)) throw FileError(folder, "the folder cannot be made.");
+    check_writable((std::filesystem::path(folder) / "report.html").string());
 }
 
 void write_study(const Study& study, const Analysis& analysis, const std::string& folder)

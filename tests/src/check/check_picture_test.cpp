@@ -19,7 +19,7 @@ TEST_CASE("an accident comes with the command that shows its path", "[render][ch
     CheckContext context;
     context.device = &test_devices().front();
     PictureChoice choice;
-    choice.specialized = true;
+    choice.other_kernel = true;
     choice.overrides = overrides;
     const CheckPicture picture = check_picture(context, load_scene(file, overrides), choice);
     CHECK_THAT(picture.accident, Contains("2 samples counted as zero because of path_too_long"));

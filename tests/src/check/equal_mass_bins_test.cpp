@@ -89,6 +89,17 @@ TEST_CASE("samples of a lobe fit its density, and no other one", "[host]")
     }
 }
 
+TEST_CASE("directions that are all one make few bins", "[host]")
+{
+    for (const Direction& w : {Direction{0, 0, 1}, Direction{0.6f, 0, -0.8f}, Direction{0.3f, 0.4f, 0.866f}}) {
+        const EqualMassBins bins(std::vector<Direction>(1000, w), 64);
+        CHECK(bins.count() < 10);
+        const std::vector<double> masses =
+            bins.integrate([](const auto& wi) { return std::vector<float>(wi.size(), static_cast<float>(0.25 / PI)); });
+        CHECK(std::accumulate(masses.begin(), masses.end(), 0.0) == Approx(1));
+    }
+}
+
 TEST_CASE("both sides of the surface have bins by what falls on them", "[host]")
 {
     const Lobe up{0.5, 1}, down{1e-4, -1};

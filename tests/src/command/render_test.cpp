@@ -407,7 +407,7 @@ TEST_CASE("a second interrupt ends a render at once", "[render][command]")
     REQUIRE(wait_for(errors, "128x128 pixels"));
     RunningChild::pause(2500);
     child.interrupt();
-    RunningChild::pause(200);
+    RunningChild::pause(1000); // two that come at once are one
     child.interrupt();
     CHECK(child.exit_code() == 130);
     CHECK(folder.files() == std::set<std::string>{"errors", "scene.json"});

@@ -62,6 +62,7 @@ TEST_CASE("every axis gives its configurations", "[converge]")
     CHECK(along("accelerators") == std::vector<std::string>{"none", "lbvh"});
     CHECK(along("specialization") == std::vector<std::string>{"specialised", "general"});
     CHECK(along("precision") == std::vector<std::string>{"single", "fp64"});
+    CHECK(along("fast_math") == std::vector<std::string>{"strict", "fast-math"});
     CHECK_FALSE(along("samplers").empty());
     CHECK_THROWS_WITH(along("integrator"), Contains("integrators"));
     // Nothing else would end the paths.
