@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -143,43 +144,46 @@ const std::vector<std::pair<const char*, NumberChoice>>& other_numbers()
     return all;
 }
 
-// The correlation coefficient of the first word and another one over the samples of each of some pixels: the mean of
-// 12 (u - 1/2) (v - 1/2).
-std::vector<double> correlations(const CheckContext& context, std::uint32_t sampler, const NumberChoice& choice,
-                                 std::uint32_t first_pixel, std::uint32_t pixel_count)
+// One number of each sample of some pixels, as a deviation from 1/2 in standard deviations.
+std::vector<float> numbers_of(const CheckContext& context, std::uint32_t sampler, const NumberChoice& choice,
+                              std::uint32_t first_pixel, std::uint32_t pixel_count)
 {
-    constexpr std::uint32_t SAMPLES = SAMPLES_PER_BLOCK;
-    const auto numbers = [&](const NumberChoice& of) {
-        Words pixels, samples;
-        for (std::uint32_t p = first_pixel; p < first_pixel + pixel_count; ++p)
-            for (std::uint32_t s = 0; s < SAMPLES; ++s) {
-                pixels.push_back(2 * p + of.pixels_on);
-                samples.push_back(s + of.samples_on);
-            }
-        Words from = stream(context, sampler, 2, of.sample_high);
-        from[0] += of.seed_on;
-        return blocks(context, from, pixels, samples, Words(pixels.size(), of.dimension))[of.word];
-    };
-    const Words first = numbers({}), second = numbers(choice);
-    std::vector<double> means(pixel_count);
-    for (std::size_t i = 0; i < first.size(); ++i)
-        means[i / SAMPLES] += 12 * (first[i] * 0x1p-32 - 0.5) * (second[i] * 0x1p-32 - 0.5) / SAMPLES;
-    return means;
+    Words pixels, samples;
+    for (std::uint32_t p = first_pixel; p < first_pixel + pixel_count; ++p)
+        for (std::uint32_t s = 0; s < SAMPLES_PER_BLOCK; ++s) {
+            pixels.push_back(2 * p + choice.pixels_on);
+            samples.push_back(s + choice.samples_on);
+        }
+    Words from = stream(context, sampler, 2, choice.sample_high);
+    from[0] += choice.seed_on;
+    const Words words = blocks(context, from, pixels, samples, Words(pixels.size(), choice.dimension))[choice.word];
+    std::vector<float> numbers;
+    for (const std::uint32_t word : words)
+        numbers.push_back(static_cast<float>((word * 0x1p-32 - 0.5) * std::sqrt(12.0)));
+    return numbers;
 }
 
-// Samples of a pixel depend on each other: pixels are the independent trials.
+// Correlation coefficients over the samples of each pixel. Samples of a pixel depend on each other: pixels are the
+// independent trials.
 Results check_correlation(const CheckContext& context, std::uint32_t sampler, const std::string& name)
 {
     constexpr std::uint32_t BATCH = 1 << 12;
-    const auto batches = static_cast<std::uint32_t>(std::ceil(8 * context.effort));
-    ExpectedMeans tests(context);
-    for (const auto& [text, choice] : other_numbers()) {
-        RunningStatistics correlation;
-        for (std::uint32_t batch = 0; batch < batches; ++batch)
-            for (const double r : correlations(context, sampler, choice, batch * BATCH, BATCH)) correlation.add(r);
-        // From 1, so that what could have been seen is told as a correlation.
-        tests.add(text, 1 + correlation.mean(), correlation.standard_error(), 1, 0x1p-32);
+    const auto batches = static_cast<std::uint32_t>(std::ceil(16 * context.effort));
+    std::vector<RunningStatistics> correlations(other_numbers().size());
+    for (std::uint32_t batch = 0; batch < batches && !context.stop(); ++batch) {
+        const std::vector<float> first = numbers_of(context, sampler, {}, batch * BATCH, BATCH);
+        for (std::size_t k = 0; k < correlations.size(); ++k) {
+            const std::vector<float> other =
+                numbers_of(context, sampler, other_numbers()[k].second, batch * BATCH, BATCH);
+            for (std::size_t i = 0; i < first.size(); i += SAMPLES_PER_BLOCK)
+                correlations[k].add(
+                    std::inner_product(first.data() + i, first.data() + i + SAMPLES_PER_BLOCK, other.data() + i, 0.0) /
+                    SAMPLES_PER_BLOCK);
+        }
     }
+    ExpectedMeans tests(context);
+    for (std::size_t k = 0; k < correlations.size(); ++k) // from 1, so that what could have been seen is a correlation
+        tests.add(other_numbers()[k].first, 1 + correlations[k].mean(), correlations[k].standard_error(), 1, 1e-7);
     return {tests.result(name)};
 }
 } // namespace
