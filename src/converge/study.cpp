@@ -33,7 +33,7 @@ public:
         study_.after = machine_state();
         study_.interrupted = study_.options.stop();
         study_.seconds = watch.seconds();
-        progress_.finish();
+        progress_.finish(!study_.interrupted);
         return std::move(study_);
     }
 

@@ -77,10 +77,12 @@ double StudyProgress::remaining(double done) const
     return (clock_() - speed_start_) * (total_ - done) / (done - speed_done_);
 }
 
-void StudyProgress::finish()
+void StudyProgress::finish(bool is_complete)
 {
     log_.set_status("");
-    if (!log_.is_terminal()) log_.info(study_line(done_ / total_, "done", clock_() - start_, 0.0, PLAIN_COLUMNS));
+    if (!log_.is_terminal())
+        log_.info(study_line(is_complete ? 1.0 : done_ / total_, is_complete ? "done" : "stopped", clock_() - start_,
+                             0.0, PLAIN_COLUMNS));
 }
 
 void StudyProgress::write(double done)

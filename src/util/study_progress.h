@@ -27,7 +27,7 @@ public:
     // What is done so far says nothing of how fast the rest will be.
     void forget_speed();
     // Everything is done or given up; the line goes away.
-    void finish();
+    void finish(bool is_complete);
 
 private:
     void write(double done);

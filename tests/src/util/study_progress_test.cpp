@@ -46,15 +46,17 @@ TEST_CASE("without a terminal each part has one line")
 {
     std::ostringstream stream;
     Log log({stream, false});
-    StudyProgress progress(log, 2.0);
+    StudyProgress progress(log, 3.0); // the third part turned out to be there already
     progress.begin("one", 1.0);
     progress.show(0.5);
     progress.show(0.9);
     progress.end();
     progress.begin("two", 1.0);
     progress.end();
-    progress.finish();
+    progress.finish(true);
     const std::string text = stream.str();
     CHECK(std::count(text.begin(), text.end(), '\n') == 3);
     CHECK_THAT(text, Contains("100%  done"));
+    progress.finish(false);
+    CHECK_THAT(stream.str(), Contains("67%  stopped"));
 }
