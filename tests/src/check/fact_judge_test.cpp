@@ -177,6 +177,26 @@ TEST_CASE("a variance that is known less well than its tolerance says nothing", 
     CHECK(moment(fact(Subject::relative_variance, FactRule::stat, {0.1}, 0.3), picture).verdict == Verdict::passed);
 }
 
+TEST_CASE("a variance that single samples do not tell is not known", "[host]")
+{
+    const CheckPicture picture = grey({1.0, 2.0, 3.0, 2.0}, 0.0, 1);
+    CHECK(moment(fact(Subject::relative_variance, FactRule::stat, {1.0 / 6.0}, 0.5), picture).verdict ==
+          Verdict::underpowered);
+}
+
+TEST_CASE("a channel that is not a number fails, whatever the others are", "[host]")
+{
+    for (int bad = 0; bad < 3; ++bad) {
+        Vec3 mean(1.0);
+        mean[bad] = NAN;
+        CAPTURE(bad);
+        const CheckPicture picture = picture_of({mean, mean}, 0.01);
+        CHECK(::mean(fact(Subject::mean, FactRule::stat, {1.0, 1.0, 1.0}, 16.0), picture).verdict == Verdict::failed);
+        CHECK(moment(fact(Subject::second_moment, FactRule::bound, {2.0, 2.0, 2.0}), picture).verdict ==
+              Verdict::failed);
+    }
+}
+
 TEST_CASE("the same picture has the same bits, or is near enough, or has the same mean", "[host]")
 {
     const auto judge = [](FactRule rule, const CheckPicture& a, const CheckPicture& b, double tolerance = 0.0,

@@ -162,6 +162,8 @@ TEST_CASE("the JSON file has every result, and a folder that is missing is found
     CHECK(json["family"]["alpha"] == 0.01);
     CHECK(json["family"]["tests"] == 1);
     CHECK(json["command"].asString().starts_with("etendue check "));
+    CHECK(json["runs"][0]["canary"]["passed"] == true);
+    CHECK(json["runs"][0]["canary"]["findings"].size() > 0);
     const Json::Value& result = json["runs"][0]["results"][0];
     CHECK(result["name"] == "wrong");
     CHECK(result["verdict"] == "failed");
