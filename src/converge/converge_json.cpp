@@ -39,6 +39,7 @@ Json::Value reference_json(const Reference& reference)
     json["from_cache"] = reference.from_cache;
     json["variance"] = json_number(reference.floor);
     json["variance_error"] = json_number(reference.floor_error);
+    json["skewness"] = json_number(reference.skewness);
     json["variance_by_replicates_over_by_film"] = json_number(reference.replicate_ratio);
     return json;
 }

@@ -79,12 +79,14 @@ public:
         const double n = static_cast<double>(pool_.count());
         reference.variance = pool_.variance_of_mean();
         reference.degrees = n - 1;
+        reference.skewness = pool_.skewness_of_mean();
         set_floor(reference, n);
         const double by_replicates = reference.floor;
         // Of each pixel the films know more than the few replicates do.
         if (std::isfinite(variance_.front().x)) {
             for (std::size_t i = 0; i < variance_.size(); ++i) reference.variance[i] = variance_[i] / (n * n);
             reference.degrees = static_cast<double>(samples_) - n;
+            reference.skewness = pool_.skewness_of_mean(reference.variance);
             set_floor(reference, n);
             reference.replicate_ratio = by_replicates / reference.floor;
             reference.floor = by_replicates;
@@ -107,6 +109,7 @@ void store(const Reference& reference, const PreparedConfiguration& prepared, co
     put("etendue:reference_seconds", reference.seconds);
     put("etendue:reference_degrees", reference.degrees);
     put("etendue:reference_floor", reference.floor);
+    put("etendue:reference_skewness", reference.skewness);
     put("etendue:reference_ratio", reference.replicate_ratio);
     image.metadata["etendue:scene"] = prepared.scene.file;
     image.metadata["etendue:scene_sha256"] = prepared.scene.sha256;
@@ -137,7 +140,9 @@ std::optional<Reference> stored(const fs::path& file, const IndependentOptions& 
         set_floor(reference, static_cast<double>(REFERENCE_REPLICATES));
         reference.floor = get("etendue:reference_floor");
         reference.replicate_ratio = get("etendue:reference_ratio");
-        if (!(samples > 0.0 && reference.seconds >= 0.0 && reference.degrees > 0.0 && reference.floor >= 0.0))
+        reference.skewness = get("etendue:reference_skewness");
+        if (!(samples > 0.0 && reference.seconds >= 0.0 && reference.degrees > 0.0 && reference.floor >= 0.0 &&
+              std::isfinite(reference.skewness)))
             return {};
         reference.samples = static_cast<std::uint64_t>(samples);
         const bool enough = options.samples > 0 && reference.samples >= options.samples;

@@ -41,9 +41,14 @@ BadValues count_bad_values(const Pixels& pixels)
 void PixelPool::add(const Pixels& picture)
 {
     pixels_.resize(picture.size());
+    cubes_.resize(picture.size(), Vec3(0.0));
+    const double n = static_cast<double>(count_) + 1;
     for (std::size_t i = 0; i < picture.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             Moments& moments = pixels_[i][static_cast<std::size_t>(c)];
+            // Pebay 2008, eq. 1.6.
+            const double d = picture[i][c] - moments.mean;
+            cubes_[i][c] += d * d * d * (n - 1) * (n - 2) / (n * n) - 3 * d * moments.m2 / n;
             moments = merge_moments(moments, static_cast<double>(count_), {picture[i][c], 0.0}, 1.0);
         }
     ++count_;
@@ -64,6 +69,21 @@ Pixels PixelPool::variance_of_mean() const
     for (const auto& pixel : pixels_)
         variance.push_back(count_ < 2 ? Vec3(scale) : Vec3(pixel[0].m2, pixel[1].m2, pixel[2].m2) * scale);
     return variance;
+}
+
+double PixelPool::skewness_of_mean(const Pixels& variance_of_mean) const
+{
+    if (count_ < 3) return 0.0;
+    // The third k-statistic of one picture is n / ((n - 1) (n - 2)) of the sum; the cumulant of the mean is 1 / n^2 of
+    // it.
+    const double n = static_cast<double>(count_), scale = 1.0 / (n * (n - 1) * (n - 2));
+    RunningStatistics skewness;
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double of_pixel = scale * cubes_[i][c] / std::pow(variance_of_mean[i][c], 1.5);
+            if (std::isfinite(of_pixel)) skewness.add(of_pixel);
+        }
+    return skewness.mean();
 }
 
 Image image_of(const Pixels& mean, const Pixels& variance, int width, int height)

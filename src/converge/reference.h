@@ -30,6 +30,7 @@ struct Reference {
     bool knows_error = true;                                  // of a file: its variance is there
     double floor = 0.0;                                       // mean variance: what every measured MSE has too much
     double floor_error = 0.0; // standard deviation of what stays when the floor is subtracted
+    double skewness = 0.0;    // of a mean's noise, by replicates
     double replicate_ratio = std::numeric_limits<double>::quiet_NaN(); // floor by replicates over floor by the films
     std::uint64_t samples = 0;                                         // per pixel
     std::uint64_t wanted_samples = 0; // of an independent one; 0: as many as the time allows

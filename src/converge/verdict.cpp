@@ -33,10 +33,10 @@ double rounding_variance(double value)
     return deviation * deviation;
 }
 
-std::vector<PixelMoments> moments_of(const Pixels& mean, const Pixels& variance, double degrees)
+std::vector<PixelMoments> moments_of(const Pixels& mean, const Pixels& variance, double degrees, double skewness)
 {
     std::vector<PixelMoments> moments;
-    for (std::size_t i = 0; i < mean.size(); ++i) moments.push_back({mean[i], variance[i], degrees});
+    for (std::size_t i = 0; i < mean.size(); ++i) moments.push_back({mean[i], variance[i], degrees, skewness});
     return moments;
 }
 
@@ -68,7 +68,14 @@ void judge_floor(BiasVerdict& verdict, const BiasEvidence& evidence, double delt
                         std::sqrt(FLOOR_POWER)));
 }
 
-void judge_tiles(BiasVerdict& verdict, const BiasEvidence& evidence, double alpha)
+// Whether more than a tenth of the tiles is.
+bool is_too_skewed(const WelchTiles& tiles)
+{
+    return 10 * tiles.too_skewed > tiles.p_values.size();
+}
+
+// Whether tiles see a bias.
+bool judge_tiles(BiasVerdict& verdict, const BiasEvidence& evidence, double alpha)
 {
     // Half of the level for all tiles together, half for each by itself: one that is far off is a bias too.
     const WelchTiles tiles =
@@ -78,11 +85,17 @@ void judge_tiles(BiasVerdict& verdict, const BiasEvidence& evidence, double alph
     verdict.uniform_p_value = tiles.ks_p_value;
     verdict.worst_tile_z = tiles.worst_z;
     // Tiles without any noise that differ have a p-value of 0 and are below the level, too.
-    verdict.tiles_passed = !(tiles.excess_p_value <= alpha / 2) && tiles.below_alpha == 0;
-    if (!verdict.tiles_passed)
+    const bool seen = tiles.excess_p_value <= alpha / 2 || tiles.below_alpha > 0;
+    verdict.tiles_passed = !seen && !is_too_skewed(tiles);
+    if (seen)
         verdict.reasons.push_back(fmt::format("Tiles of {0}x{0} pixels differ from the reference by more than noise: "
                                               "p = {1:.2g}, the worst by {2:.1f} standard errors.",
                                               verdict.tile, verdict.tile_p_value, verdict.worst_tile_z));
+    else if (!verdict.tiles_passed)
+        verdict.reasons.emplace_back(
+            "Rare bright samples make the noise of the tiles too skewed to be judged: take more "
+            "samples, or a larger picture.");
+    return seen;
 }
 
 // The variance of the mean of all seeds' pictures, and its degrees of freedom.
@@ -102,8 +115,17 @@ MeanVariance variance_of_mean(const BiasEvidence& evidence, int channel)
     return {means.variance() / seeds, seeds - 1};
 }
 
-// One channel: the means of the seeds against the reference's.
-void judge_channel(BiasVerdict& verdict, const BiasEvidence& evidence, int channel, const VerdictLevels& levels)
+// The third cumulant of the picture's mean.
+double third_cumulant(const Pixels& variance, double skewness, int channel)
+{
+    if (skewness == 0.0) return 0.0;
+    double sum = 0.0;
+    for (const Vec3& v : variance) sum += std::pow(v[channel], 1.5);
+    return skewness * sum / std::pow(static_cast<double>(variance.size()), 3.0);
+}
+
+// One channel: the means of the seeds against the reference's; whether it sees a bias.
+bool judge_channel(BiasVerdict& verdict, const BiasEvidence& evidence, int channel, const VerdictLevels& levels)
 {
     const Reference& reference = *evidence.reference;
     std::vector<double> means;
@@ -112,31 +134,44 @@ void judge_channel(BiasVerdict& verdict, const BiasEvidence& evidence, int chann
     const MeanVariance of_seeds = variance_of_mean(evidence, channel);
     const double of_reference = mean_of(reference.variance)[channel] / static_cast<double>(reference.variance.size());
     const double variance = of_seeds.variance + of_reference + rounding_variance(expected);
-    if (variance == 0.0) return; // a channel that is black in every picture
+    if (variance == 0.0) return false; // a channel that is black in every picture
     // Welch and Satterthwaite; of the reference's variance so many pixels know enough.
     const double part = of_seeds.variance / variance;
     const double degrees = part > 0.0 ? std::min(of_seeds.degrees / (part * part), MANY_DEGREES) : MANY_DEGREES;
     const double error = std::sqrt(variance);
-    const double z = (mean_of(means) - expected) / error;
+    const PixelPool& pool = *evidence.pool;
+    const double skewness = (third_cumulant(pool.variance_of_mean(), pool.skewness_of_mean(), channel) -
+                             third_cumulant(reference.variance, reference.skewness, channel)) /
+                            (variance * error);
+    const double z = without_skewness((mean_of(means) - expected) / error, skewness);
     const double critical = student_t_quantile(1.0 - levels.test_alpha / 2, degrees);
     const double detectable = (critical + student_t_quantile(POWER, degrees)) * error / std::abs(expected);
-    verdict.mean_passed = verdict.mean_passed && std::abs(z) < critical;
+    const bool is_known = std::abs(skewness) <= LARGEST_SKEWNESS;
+    const bool seen = is_known && !(std::abs(z) < critical);
+    verdict.mean_passed = verdict.mean_passed && is_known && !seen;
     if (!std::isfinite(verdict.z) || std::abs(z) / critical > std::abs(verdict.z) / verdict.critical) {
         verdict.z = z;
         verdict.critical = critical;
         verdict.mean_error = (mean_of(means) - expected) / std::abs(expected);
     }
     if (!(verdict.detectable_bias >= detectable)) verdict.detectable_bias = detectable;
+    return seen;
 }
 
-void judge_mean(BiasVerdict& verdict, const BiasEvidence& evidence, const VerdictLevels& levels)
+bool judge_mean(BiasVerdict& verdict, const BiasEvidence& evidence, const VerdictLevels& levels)
 {
     verdict.mean_passed = true;
-    for (int c = 0; c < 3; ++c) judge_channel(verdict, evidence, c, levels);
-    if (!verdict.mean_passed)
+    bool seen = false;
+    for (int c = 0; c < 3; ++c) seen = judge_channel(verdict, evidence, c, levels) || seen;
+    if (seen)
         verdict.reasons.push_back(fmt::format("The picture's mean is off by {:+.3g} %: {:.1f} standard errors, where "
                                               "{:.2f} are allowed.",
                                               100 * verdict.mean_error, verdict.z, verdict.critical));
+    else if (!verdict.mean_passed)
+        verdict.reasons.emplace_back(
+            "Rare bright samples make the noise of the picture's mean too skewed to be judged: "
+            "take more samples.");
+    return seen;
 }
 
 bool slope_is_wrong(const BiasEvidence& evidence)
@@ -171,9 +206,9 @@ bool sees_bias(BiasVerdict& verdict, const BiasEvidence& evidence, const Verdict
         verdict.floor_passed = true;
     else
         judge_floor(verdict, evidence, levels.delta);
-    judge_tiles(verdict, evidence, levels.test_alpha);
-    judge_mean(verdict, evidence, levels);
-    return (!verdict.exact && has_floor(evidence)) || !verdict.tiles_passed || !verdict.mean_passed;
+    const bool by_tiles = judge_tiles(verdict, evidence, levels.test_alpha);
+    const bool by_mean = judge_mean(verdict, evidence, levels);
+    return (!verdict.exact && has_floor(evidence)) || by_tiles || by_mean;
 }
 
 // Whether the errors fall at an impossible rate. A floor bends the slope too.
@@ -213,9 +248,14 @@ int tile_edge(int width, int height)
 WelchTiles compare_tiles(const PixelPool& pool, const Reference& reference, int width, int height, double alpha)
 {
     const double degrees = static_cast<double>(pool.count()) - 1;
-    return welch_test(moments_of(pool.mean(), pool.variance_of_mean(), degrees),
-                      moments_of(reference.mean, reference.variance, reference.degrees), width, height,
-                      tile_edge(width, height), alpha);
+    const auto a = moments_of(pool.mean(), pool.variance_of_mean(), degrees, pool.skewness_of_mean());
+    const auto b = moments_of(reference.mean, reference.variance, reference.degrees, reference.skewness);
+    // Larger tiles are less skewed.
+    int edge = tile_edge(width, height);
+    WelchTiles tiles = welch_test(a, b, width, height, edge, alpha);
+    while (is_too_skewed(tiles) && tiles.columns * tiles.rows > 1)
+        tiles = welch_test(a, b, width, height, edge *= 2, alpha);
+    return tiles;
 }
 
 BiasVerdict judge_bias(const BiasEvidence& evidence, const VerdictLevels& levels)
@@ -246,7 +286,7 @@ BiasVerdict judge_bias(const BiasEvidence& evidence, const VerdictLevels& levels
         verdict.result = BiasResult::biased;
     else if (is_blind)
         verdict.result = BiasResult::unknown;
-    else if (!has_pictures || !verdict.floor_passed || weak_mean)
+    else if (!has_pictures || !verdict.floor_passed || !verdict.tiles_passed || !verdict.mean_passed || weak_mean)
         verdict.result = BiasResult::underpowered;
     else
         verdict.result = BiasResult::unbiased;

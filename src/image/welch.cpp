@@ -21,7 +21,8 @@ constexpr double ROUNDINGS = 16.0 * 0x1p-24;
 // Mean difference of one channel in one tile, what is known of its error, and how large the values are.
 struct TileDifference {
     double mean = 0.0, variance = 0.0, degrees = 0.0;
-    double size = 0.0; // mean |b|
+    double size = 0.0;     // mean |b|
+    double skewness = 0.0; // of the mean's noise
 };
 
 using DifferenceOf = std::function<TileDifference(const std::vector<std::size_t>& pixels, int channel)>;
@@ -50,8 +51,12 @@ void add_test(WelchTiles& tiles, const TileDifference& difference)
         p = excess == 0.0 ? 1.0 : 0.0;
         z = excess == 0.0 ? 0.0 : std::copysign(std::numeric_limits<double>::infinity(), difference.mean);
         ++tiles.exact;
+    } else if (std::abs(difference.skewness) > LARGEST_SKEWNESS) {
+        ++tiles.untested;
+        ++tiles.too_skewed;
     } else if (std::isfinite(difference.mean) && std::isfinite(difference.variance) && difference.degrees > 0.0) {
-        const double t = std::copysign(excess / std::sqrt(difference.variance), difference.mean);
+        const double t = without_skewness(std::copysign(excess / std::sqrt(difference.variance), difference.mean),
+                                          difference.skewness);
         const double tail = student_t_cdf(-std::abs(t), difference.degrees);
         p = std::min(1.0, 2.0 * tail);
         // Where the tail is too small for a number, t itself is as good.
@@ -103,6 +108,11 @@ WelchTiles test_tiles(int width, int height, int tile, double alpha, const Diffe
     return tiles;
 }
 
+double third_cumulant(const PixelMoments& pixel, int channel)
+{
+    return pixel.skewness == 0.0 ? 0.0 : pixel.skewness * std::pow(pixel.variance_of_mean[channel], 1.5);
+}
+
 void check_sizes(std::size_t a, std::size_t b, int width, int height, int tile)
 {
     if (width <= 0 || height <= 0 || tile <= 0 || a != b ||
@@ -147,12 +157,14 @@ WelchTiles welch_test(std::span<const PixelMoments> a, std::span<const PixelMome
     return test_tiles(width, height, tile, alpha, [&](const std::vector<std::size_t>& pixels, int channel) {
         const double n = static_cast<double>(pixels.size());
         TileDifference sum;
-        double largest = 0.0;
+        double largest = 0.0, cubes = 0.0;
         for (const std::size_t i : pixels) {
             sum.mean += a[i].mean[channel] - b[i].mean[channel];
             sum.size += std::abs(b[i].mean[channel]);
             sum.variance += a[i].variance_of_mean[channel] + b[i].variance_of_mean[channel];
             largest = std::max({largest, a[i].variance_of_mean[channel], b[i].variance_of_mean[channel]});
+            // Third cumulants add up, too.
+            cubes += third_cumulant(a[i], channel) - third_cumulant(b[i], channel);
         }
         // Degrees of a sum of variances: (sum v)^2 / sum (v^2 / degrees) (Welch 1947, Satterthwaite 1946); of ratios to
         // the largest, whose squares neither overflow nor vanish.
@@ -167,7 +179,7 @@ WelchTiles welch_test(std::span<const PixelMoments> a, std::span<const PixelMome
         }
         const double ratios = sum.variance / largest;
         return TileDifference{sum.mean / n, sum.variance / (n * n), largest > 0.0 ? ratios * ratios / spread : 0.0,
-                              sum.size / n};
+                              sum.size / n, sum.variance > 0.0 ? cubes / std::pow(sum.variance, 1.5) : 0.0};
     });
 }
 

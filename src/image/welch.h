@@ -17,15 +17,17 @@ struct PixelMoments {
     Vec3 mean{0.0};
     Vec3 variance_of_mean{0.0}; // the squared standard error; 0: known exactly
     double degrees = 0.0;       // of freedom, behind the variance: samples - 1 where samples are independent
+    double skewness = 0.0;      // of the mean's noise
 };
 
-// Differences of up to 16 roundings of a float count as none. One test per tile and channel: index (row * columns +
-// column) * 3 + channel, row by row from the top. Tiles are `tile` pixels wide and high; the last of a row or column
-// takes what is left over too, so that none is small.
+// A difference whose noise is skewed is as significant as t without its skewness says (util/statistics.h). Differences
+// of up to 16 roundings of a float count as none. One test per tile and channel: index (row * columns + column) * 3 +
+// channel, row by row from the top. Tiles are `tile` pixels wide and high; the last of a row or column takes what is
+// left over too, so that none is small.
 struct WelchTiles {
     int tile = 0, columns = 0, rows = 0;
     int width = 0, height = 0;           // of the pictures
-    std::vector<double> p_values;        // two-sided; NaN where nothing is known of the variance
+    std::vector<double> p_values;        // two-sided; NaN where nothing was tested
     std::vector<double> z_values;        // signed: what a normal variable of the same p-value would be, + where a > b
     std::vector<double> differences;     // mean of a - b in the tile
     std::vector<double> standard_errors; // of that difference
@@ -39,7 +41,8 @@ struct WelchTiles {
     std::size_t worst = 0;       // its index
     std::size_t tests = 0;       // made, of those with noise and those known exactly
     std::size_t exact = 0;       // of these, tiles without any noise: p is 1 where equal, else 0
-    std::size_t untested = 0;    // nothing is known of the variance, or something is not finite
+    std::size_t untested = 0;    // nothing is known of the variance, something is not finite, or the noise too skewed
+    std::size_t too_skewed = 0;  // of these, the last
     double test_alpha = 0.0;     // level of one test: the family's after Sidak
     std::size_t below_alpha = 0; // tests whose p-value is below it
 

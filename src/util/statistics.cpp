@@ -136,6 +136,13 @@ double student_t_quantile(double p, double degrees)
     return p < 0.5 ? -invert_tail(tail, p) : invert_tail(tail, 1.0 - p);
 }
 
+double without_skewness(double t, double skewness_of_mean)
+{
+    const double a = skewness_of_mean / 3.0;
+    const double symmetric = t + a * t * t + a * a * t * t * t / 3.0 + skewness_of_mean / 6.0;
+    return std::abs(symmetric) < std::abs(t) ? symmetric : t;
+}
+
 double gamma_q(double a, double x)
 {
     if (x <= 0.0) return 1.0;

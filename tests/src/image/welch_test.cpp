@@ -136,6 +136,64 @@ TEST_CASE("a bias everywhere, too small for any tile, makes too many p-values sm
     CHECK(std::abs(welch_test(a, b, WIDTH, HEIGHT, WIDTH).worst_z) > 5);
 }
 
+TEST_CASE("skewed noise is not taken for a difference, and does not hide one", "[image][welch]")
+{
+    // Each pixel is the sum of about 112 rare samples of exponential size; t of one has P(t < -5) = 1.5e-4.
+    constexpr double SEEN = 112.5, SKEWNESS = 0.2;
+    constexpr int TILES = 64;
+    std::mt19937 random(11);
+    std::poisson_distribution<int> seen(SEEN);
+    std::exponential_distribution<double> size(1.0);
+    const auto picture = [&](double bias, double skewness) {
+        std::vector<PixelMoments> pixels(TILES);
+        for (PixelMoments& pixel : pixels) {
+            pixel.degrees = 1e6;
+            pixel.skewness = skewness;
+            for (int c = 0; c < 3; ++c) {
+                double sum = 0.0, squares = 0.0;
+                for (int k = seen(random); k > 0; --k) {
+                    const double x = size(random) / SEEN;
+                    sum += x;
+                    squares += x * x;
+                }
+                pixel.mean[c] = sum + bias;
+                pixel.variance_of_mean[c] = squares;
+            }
+        }
+        return pixels;
+    };
+    const std::vector<PixelMoments> truth(TILES, {Vec3(1.0), Vec3(0.0), 0});
+    const auto alarms = [&](double bias, double skewness) {
+        int count = 0;
+        for (int i = 0; i < 50; ++i) {
+            const WelchTiles tiles = welch_test(picture(bias, skewness), truth, TILES, 1, 1, 1e-3);
+            count += tiles.excess_p_value < 1e-3 || tiles.below_alpha > 0;
+        }
+        return count;
+    };
+    CHECK(alarms(0.0, 0.0) > 5);
+    CHECK(alarms(0.0, SKEWNESS) <= 1);
+    CHECK(alarms(0.5, SKEWNESS) == 50);
+    CHECK(alarms(0.5, -SKEWNESS) == 50);
+}
+
+TEST_CASE("noise that is too skewed is not tested, and counted", "[image][welch]")
+{
+    const std::vector<PixelMoments> truth(16, {Vec3(1.0), Vec3(0.0), 0});
+    // Of tiles of four pixels a half.
+    const std::vector<PixelMoments> pixels(16, {Vec3(9.0), Vec3(0.01), 1000, 0.4});
+    const WelchTiles single = welch_test(pixels, truth, 4, 4, 1), quads = welch_test(pixels, truth, 4, 4, 2);
+    CHECK(single.too_skewed == 48);
+    CHECK(single.untested == 48);
+    CHECK(single.tests == 0);
+    CHECK(std::isnan(single.p_values[0]));
+    CHECK(quads.too_skewed == 0);
+    CHECK(quads.tests == 12);
+    CHECK(quads.below_alpha == 12);
+    // Equal skewness of both cancels.
+    CHECK(welch_test(pixels, pixels, 4, 4, 1).too_skewed == 0);
+}
+
 TEST_CASE("one test is Welch's by hand", "[image][welch]")
 {
     // Two pixels per picture; per channel the difference of means is (0.3 + 0.1) / 2.

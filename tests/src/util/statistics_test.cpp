@@ -157,3 +157,39 @@ TEST_CASE("too many small values are found, too many large ones are none of it")
     }
     CHECK(std::abs(p_values.mean() - 0.5) < 5 * p_values.standard_error());
 }
+
+TEST_CASE("a mean of skewed values is significant as often as its level says")
+{
+    // Means of 100 exponential values have skewness 2 / sqrt(100); t has a long tail below.
+    constexpr int MEANS = 40000, VALUES = 100;
+    constexpr double SKEWNESS = 0.2, LEVEL = 1e-3;
+    const double critical = student_t_quantile(1 - LEVEL, VALUES - 1);
+    std::mt19937_64 random(3);
+    std::exponential_distribution<double> exponential(1.0);
+    int plain = 0, corrected = 0;
+    for (int i = 0; i < MEANS; ++i) {
+        RunningStatistics values;
+        for (int k = 0; k < VALUES; ++k) values.add(exponential(random));
+        const double t = (values.mean() - 1.0) / values.standard_error();
+        plain += t < -critical;
+        corrected += without_skewness(t, SKEWNESS) < -critical;
+    }
+    CAPTURE(plain, corrected);
+    // 40 are expected with a standard deviation of 6.3.
+    CHECK(plain > 4 * MEANS * LEVEL);
+    CHECK(corrected < 1.8 * MEANS * LEVEL);
+}
+
+TEST_CASE("skewness makes nothing more significant, and none changes nothing")
+{
+    for (const double t : {-30.0, -4.5, -1.0, 0.0, 0.2, 3.0, 12.0}) {
+        CHECK(without_skewness(t, 0.0) == t);
+        for (const double skewness : {-1.0, -0.1, 0.1, 1.0}) {
+            CAPTURE(t, skewness);
+            CHECK(std::abs(without_skewness(t, skewness)) <= std::abs(t));
+            CHECK(without_skewness(-t, -skewness) == -without_skewness(t, skewness));
+        }
+    }
+    CHECK(std::abs(without_skewness(-5.0, 0.3)) < 4.0);
+    CHECK(without_skewness(5.0, 0.3) == 5.0);
+}
