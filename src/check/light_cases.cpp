@@ -49,26 +49,27 @@ Primitive sphere_light(const Point& centre, double radius)
 
 std::vector<LightCase> light_cases()
 {
+    using Kind = LightCase::Kind;
     const Primitive slanted = triangle({1, 0.2, 1}, {1.5, 1, 0.5}, {2, 0.1, -1});
     return {{"triangle", ceiling_light(1, 0.5)},
-            {"triangle, tiny", ceiling_light(1, 1e-4), {0, 0, 0}, 0, true},
-            {"triangle, of 1e-12 steradian", ceiling_light(1, 6e-7), {0, 0, 0}, 0, true},
+            {"triangle, tiny", ceiling_light(1, 1e-4), {0, 0, 0}, 0, Kind::tiny},
+            {"triangle, of 1e-12 steradian", ceiling_light(1, 6e-7), {0, 0, 0}, 0, Kind::tiny},
             {"triangle, huge", ceiling_light(1, 5)},
-            {"triangle, of almost 2 pi", ceiling_light(1e-3, 1), {0, 0, 0}, 0, false, true},
+            {"triangle, of almost 2 pi", ceiling_light(1e-3, 1), {0, 0, 0}, 0, Kind::lopsided},
             {"triangle, near", ceiling_light(0.1, 0.5)},
             {"triangle, far", ceiling_light(1000, 0.5)},
-            {"triangle, aslant", slanted},
+            {"triangle, aslant", slanted, {0, 0, 0}, 0, Kind::typical},
             {"disk", disk_light({0, 1, 0}, {0, -1, 0}, 0.5)},
-            {"disk, tiny", disk_light({0.1, 1, 0}, {0, -1, 0}, 1e-4), {0, 0, 0}, 0, true},
-            {"disk, of 1e-12 steradian", disk_light({0, 1, 0}, {0, -1, 0}, 6e-7), {0, 0, 0}, 0, true},
+            {"disk, tiny", disk_light({0.1, 1, 0}, {0, -1, 0}, 1e-4), {0, 0, 0}, 0, Kind::tiny},
+            {"disk, of 1e-12 steradian", disk_light({0, 1, 0}, {0, -1, 0}, 6e-7), {0, 0, 0}, 0, Kind::tiny},
             {"disk, huge", disk_light({1, 1, 0}, {0, -1, 0}, 5)},
-            {"disk, aslant", disk_light({0.5, 1, 0}, {-0.6, -0.8, 0}, 0.5)},
-            {"sphere", sphere_light({1, 0.5, 0}, 0.5)},
-            {"sphere, tiny", sphere_light({1, 0.5, 0}, 1e-4), {0, 0, 0}, 0, true},
+            {"disk, aslant", disk_light({0.5, 1, 0}, {-0.6, -0.8, 0}, 0.5), {0, 0, 0}, 0, Kind::typical},
+            {"sphere", sphere_light({1, 0.5, 0}, 0.5), {0, 0, 0}, 0, Kind::typical},
+            {"sphere, tiny", sphere_light({1, 0.5, 0}, 1e-4), {0, 0, 0}, 0, Kind::tiny},
             {"sphere, huge", sphere_light({0, 101, 0}, 100)},
             {"sphere, near", sphere_light({0, 1.001, 0}, 1)},
             {"sphere, far", sphere_light({0, 1000, 0}, 1)},
-            {"sphere from inside", sphere_light({0.3, 0.2, 0.1}, 1), {0, 0, 0}, SURFACE_FLIP_NORMAL}};
+            {"sphere from inside", sphere_light({0.3, 0.2, 0.1}, 1), {0, 0, 0}, SURFACE_FLIP_NORMAL, Kind::typical}};
 }
 
 LightScene light_of(const Primitive& primitive, uint light_flags, uint surface_flags)

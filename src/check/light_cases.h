@@ -15,10 +15,13 @@ struct LightCase {
     Primitive primitive;
     Point from{0, 0, 0};
     uint surface_flags = 0;
-    // Floats have too few directions towards it for some questions.
-    bool is_tiny = false;
-    // Densities differ so much over it that a mean of them needs more samples than there is time for.
-    bool is_lopsided = false;
+    enum class Kind {
+        plain,
+        typical, // looked at most finely
+        tiny,    // floats have too few directions towards it for some questions
+        lopsided // densities differ so much over it that a mean of them needs more samples than there is time for
+    };
+    Kind kind = Kind::plain;
 };
 
 // Triangles, disks and spheres seen from the side that emits: of all sizes and distances, aslant, a sphere from inside.

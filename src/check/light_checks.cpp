@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -17,10 +18,18 @@ namespace etendue
 namespace
 {
 constexpr double PI = std::numbers::pi;
-constexpr std::size_t BINS = 8;
-// Enough to see bins that are out by 2 %.
-constexpr double HISTOGRAM_SAMPLES = 330000;
+// Bins of two numbers that are uniform, and enough samples to see that they are out by 2 %: one light of each kind is
+// looked at as finely as BSDFs are; across the smallest lights floats have few points.
+struct Resolution {
+    std::size_t columns, rows;
+    double samples;
+};
+constexpr Resolution FINE{64, 128, 1 << 22}, PLAIN{16, 32, 1 << 20}, COARSE{8, 8, 330000};
+// Of a sample's point, that its random numbers may be off by.
+constexpr double INVERSION_ROUNDINGS = 8;
+constexpr std::size_t BATCH = std::size_t{1} << 16; // what a cache holds
 
+using Kind = LightCase::Kind;
 using Results = std::vector<CheckResult>;
 
 std::vector<Point> directions_of(const std::vector<DeviceLightSample>& samples)
@@ -35,13 +44,18 @@ DeviceLights lights_of(const CheckContext& context, const LightCase& c, uint lig
     return DeviceLights(*context.device, light_of(c.primitive, light_flags, c.surface_flags), context.lanes);
 }
 
+bool is_tiniest(const LightCase& c)
+{
+    return c.name.find("1e-12") != std::string::npos; // floats have hundreds of points on it, no more
+}
+
 // The mean of one over the density of samples is the solid angle.
 Results check_solid_angle(const CheckContext& context)
 {
     WorstError error;
     Violations violations;
     for (const LightCase& c : light_cases()) {
-        if (c.is_lopsided) continue;
+        if (c.kind == Kind::lopsided) continue;
         const auto samples = lights_of(context, c).sample(c.from, even_words(1 << 16));
         double sum = 0;
         std::size_t without = 0;
@@ -53,7 +67,7 @@ Results check_solid_angle(const CheckContext& context)
         error.add(std::abs(sum / static_cast<double>(samples.size()) / solid_angle(c.primitive, c.from) - 1));
         violations.set_subject(c.name);
         // Rounding may turn a rim of the smallest sphere away.
-        const bool may_lose = c.is_tiny && c.primitive.a.s[3] == PRIMITIVE_SPHERE;
+        const bool may_lose = c.kind == Kind::tiny && c.primitive.a.s[3] == PRIMITIVE_SPHERE;
         violations.expect(without <= (may_lose ? samples.size() / 10000 : 0), "samples without a density");
     }
     return {error.result("light-solid-angle", 1e-3, "relative"), violations.result("light-solid-angle-samples")};
@@ -66,7 +80,7 @@ Results check_density_integral(const CheckContext& context)
     WorstError error;
     Violations violations;
     for (const LightCase& c : light_cases()) {
-        if (c.is_tiny || c.is_lopsided) continue;
+        if (c.kind == Kind::tiny || c.kind == Kind::lopsided) continue;
         // Directions that cover a cone around the light, or the sphere, evenly.
         const auto named = [&](const char* part) { return c.name.find(part) != std::string::npos; };
         const bool everywhere = named("huge") || named("near") || named("inside");
@@ -123,61 +137,122 @@ Results check_agreement(const CheckContext& context)
             violations.expect(hits[i].radiance == LIGHT_RADIANCE || !(samples[i].pdf > 0), "radiance of the ray");
         }
         // Rounding may put a sample beside the rim; of the tiniest lights it decides.
-        const bool is_tiniest = c.name.find("1e-12") != std::string::npos;
-        violations.expect(missed <= samples.size() / (is_tiniest ? 2 : c.is_tiny ? 50 : 1000), "samples beside it");
+        violations.expect(missed <= samples.size() / (is_tiniest(c)          ? 2
+                                                      : c.kind == Kind::tiny ? 50
+                                                                             : 1000),
+                          "samples beside it");
     }
     return {violations.result("light-agreement", Rule::bound)};
 }
 
-// Two numbers that are uniform when samples are: over the area of triangles and disks, over the cone of spheres.
-std::array<double, 2> uniform_coordinates(const LightCase& c, const DeviceLightSample& sample)
+// The two random numbers of a sample, in double: of triangles and disks by area, of spheres from outside by the cone.
+// Turns are measured from a direction of its own. Numbers of a point that is not on the light are -1.
+std::array<double, 2> invert(const LightCase& c, const Point& to_light)
 {
     const Primitive& p = c.primitive;
-    const Point a = point_of(p.a), b = point_of(p.b), to_a = a - c.from, on_light = c.from + sample.to_light;
+    const Point a = point_of(p.a), b = point_of(p.b), to_a = a - c.from, on_light = c.from + to_light;
     const auto turn_and = [](double x, double y, double other) -> std::array<double, 2> {
         const double turn = std::atan2(y, x) / (2 * PI);
-        return {turn - std::floor(turn), std::min(other, 1.0)};
+        return {turn - std::floor(turn), other > 1.01 ? -1 : std::min(other, 1.0)};
     };
     if (p.a.s[3] == PRIMITIVE_TRIANGLE) {
         // Barycentric coordinates b1, b2: (b1 + b2)^2 and b2 / (b1 + b2) are uniform.
         const Point e1 = b - a, e2 = point_of(p.c) - a, normal = cross(e1, e2);
         const double b1 = dot(cross(on_light - a, e2), normal) / dot(normal, normal);
         const double b2 = dot(cross(e1, on_light - a), normal) / dot(normal, normal);
-        const auto clamp = [](double x) { return std::min(std::max(x, 0.0), 1.0); };
         const bool outside = b1 < -1e-2 || b2 < -1e-2 || b1 + b2 > 1.01;
-        return {outside ? -1 : clamp(b2 / (b1 + b2)), clamp((b1 + b2) * (b1 + b2))};
+        // At the first corner any share will do.
+        const double along = b1 + b2, share = along > 0 ? std::clamp(b2 / along, 0.0, 1.0) : 0.0;
+        return {outside ? -1 : std::clamp(along * along, 0.0, 1.0), share};
     }
     if (p.a.s[3] == PRIMITIVE_DISK) {
         const auto [e, f] = complete_frame(unit(b));
         const double x = dot(on_light - a, e) / p.c.s[0], y = dot(on_light - a, f) / p.c.s[0];
-        return turn_and(x, y, x * x + y * y > 1.01 ? -1 : x * x + y * y);
+        return turn_and(x, y, x * x + y * y);
     }
     if (length(to_a) < p.b.s[0]) {
         const Point n = unit(on_light - a);
-        return turn_and(n[0], n[1], 0.5 * (1 + n[2]));
+        return turn_and(n[0], n[1], 0.5 * (1 - n[2]));
     }
     // The squared distance from the axis gives 1 - cos without cancellation.
-    const Point axis = unit(to_a), across = cross(axis, unit(sample.to_light));
+    const Point axis = unit(to_a), across = cross(axis, unit(to_light));
     const auto [e, f] = complete_frame(axis);
     const double sin2 = dot(across, across), limit = std::pow(p.b.s[0] / length(to_a), 2);
     const double v = sin2 / (1 + std::sqrt(1 - sin2)) / (limit / (1 + std::sqrt(1 - limit)));
-    return turn_and(dot(sample.to_light, e), dot(sample.to_light, f), v > 1.01 ? -1 : v);
+    return turn_and(dot(to_light, e), dot(to_light, f), v);
+}
+
+// Roundings of a point on the light over the size of the light: how well its numbers can be told.
+double relative_rounding(const LightCase& c)
+{
+    const Primitive& p = c.primitive;
+    const Point a = point_of(p.a), to_a = a - c.from;
+    const double distance = length(to_a) + length(c.from);
+    if (p.a.s[3] == PRIMITIVE_TRIANGLE) {
+        const Point e1 = point_of(p.b) - a, e2 = point_of(p.c) - a;
+        const double longest = std::max(length(e1), length(e2));
+        return 0x1p-24 * (distance + longest) * longest / length(cross(e1, e2));
+    }
+    const double radius = p.a.s[3] == PRIMITIVE_DISK ? p.c.s[0] : p.b.s[0];
+    return 0x1p-24 * (distance + radius) / radius;
+}
+
+// The random numbers that a sample was made of are found again from its point.
+Results check_inversion(const CheckContext& context)
+{
+    WorstError error;
+    const auto count = static_cast<std::size_t>((1 << 16) * context.effort);
+    const std::vector<RandomWords> random = random_words(count, context.seed + 61);
+    for (const LightCase& c : light_cases()) {
+        if (is_tiniest(c)) continue;
+        error.set_subject(c.name);
+        const bool is_triangle = c.primitive.a.s[3] == PRIMITIVE_TRIANGLE;
+        const auto samples = lights_of(context, c).sample(c.from, random);
+        std::optional<double> first_turn;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double u = (random[i][2] >> 8) * 0x1p-24, v = (random[i][3] >> 8) * 0x1p-24;
+            const std::array<double, 2> found = invert(c, samples[i].to_light);
+            // Near the first corner of a triangle, or the centre, the other number is hard to tell.
+            const double along = is_triangle ? u : v, along_error = found[is_triangle ? 0 : 1] - along;
+            double across_error = found[1] - v;
+            if (!is_triangle) {
+                // The light's own direction of turns, as the first sample that can tell has it.
+                if (!first_turn && v > 0.25) first_turn = found[0] - u;
+                across_error = std::remainder(found[0] - u - first_turn.value_or(0), 1.0);
+                if (!first_turn) continue;
+            }
+            error.add(std::max(std::abs(along_error), std::sqrt(along) * std::abs(across_error)) /
+                      relative_rounding(c));
+        }
+    }
+    return {error.result("light-inversion", INVERSION_ROUNDINGS, "roundings")};
+}
+
+std::size_t batches_of(const CheckContext& context, const Resolution& bins)
+{
+    return static_cast<std::size_t>(std::ceil(bins.samples * context.effort / BATCH));
+}
+
+std::vector<double> uniform_probabilities(const Histogram& histogram)
+{
+    const std::size_t bins = histogram.columns() * histogram.rows();
+    return std::vector<double>(bins, 1.0 / static_cast<double>(bins));
 }
 
 Results check_distribution(const CheckContext& context)
 {
-    const auto count = static_cast<std::size_t>(HISTOGRAM_SAMPLES * context.effort);
-    const std::vector<RandomWords> random = random_words(count, context.seed + 47);
-    const std::vector<double> uniform(BINS * BINS, 1.0 / (BINS * BINS));
     DistributionTests tests(context);
     for (const LightCase& c : light_cases()) {
-        if (c.name.find("1e-12") != std::string::npos) continue; // floats have hundreds of points on it, no more
-        Histogram histogram(BINS, BINS);
-        for (const auto& s : lights_of(context, c).sample(c.from, random)) {
-            const auto [x, y] = uniform_coordinates(c, s);
-            histogram.add(x, y);
-        }
-        tests.add(c.name, histogram, uniform);
+        if (is_tiniest(c) || context.stop()) continue;
+        const Resolution& bins = c.kind == Kind::tiny ? COARSE : c.kind == Kind::typical ? FINE : PLAIN;
+        const DeviceLights lights = lights_of(context, c);
+        Histogram histogram(bins.columns, bins.rows);
+        for (std::size_t batch = 0; batch < batches_of(context, bins); ++batch)
+            for (const auto& s : lights.sample(c.from, random_words(BATCH, context.seed + 3000 + batch))) {
+                const auto [x, y] = invert(c, s.to_light);
+                histogram.add(x, y);
+            }
+        tests.add(c.name, histogram, uniform_probabilities(histogram));
     }
     return {tests.result("light-distribution")};
 }
@@ -236,25 +311,29 @@ Results check_environment(const CheckContext& context)
 {
     LightScene sky;
     sky.add_environment(LIGHT_RADIANCE);
-    const auto count = static_cast<std::size_t>(HISTOGRAM_SAMPLES * context.effort);
-    const std::vector<RandomWords> random = random_words(count, context.seed + 59);
-    const auto samples = DeviceLights(*context.device, sky, context.lanes).sample({0.1, 0.2, 0.3}, random);
+    const DeviceLights lights(*context.device, sky, context.lanes);
     Violations violations;
-    Histogram histogram(BINS, BINS);
-    for (std::size_t i = 0; i < count; ++i) {
-        const DeviceLightSample& s = samples[i];
-        const double turn = std::atan2(s.wi[1], s.wi[0]) / (2 * PI), height = 0.5 * (1 - s.wi[2]);
-        histogram.add(turn - std::floor(turn), std::clamp(height, 0.0, 1.0));
-        violations.expect(s.t_max == std::numeric_limits<double>::infinity() && s.primitive == NO_INDEX, "distance");
-        violations.expect(s.radiance == LIGHT_RADIANCE, "radiance");
-        violations.expect(std::abs(s.pdf * 4 * PI - 1) <= 1e-6, "density");
-        violations.expect(std::abs(length(s.wi) - 1) <= 1e-6 && s.to_light == s.wi, "not of unit length");
-        const double u = (random[i][2] >> 8) * 0x1p-24, v = (random[i][3] >> 8) * 0x1p-24;
-        violations.expect(std::abs(height - v) <= 1e-6, "height");
-        violations.expect(std::hypot(s.wi[0], s.wi[1]) * std::abs(std::remainder(turn - u, 1.0)) <= 1e-6, "azimuth");
+    Histogram histogram(FINE.columns, FINE.rows);
+    for (std::size_t batch = 0; batch < batches_of(context, FINE); ++batch) {
+        const std::vector<RandomWords> random = random_words(BATCH, context.seed + 4000 + batch);
+        const auto samples = lights.sample({0.1, 0.2, 0.3}, random);
+        for (std::size_t i = 0; i < BATCH; ++i) {
+            const DeviceLightSample& s = samples[i];
+            const double turn = std::atan2(s.wi[1], s.wi[0]) / (2 * PI), height = 0.5 * (1 - s.wi[2]);
+            histogram.add(turn - std::floor(turn), std::clamp(height, 0.0, 1.0));
+            violations.expect(s.t_max == std::numeric_limits<double>::infinity() && s.primitive == NO_INDEX,
+                              "distance");
+            violations.expect(s.radiance == LIGHT_RADIANCE, "radiance");
+            violations.expect(std::abs(s.pdf * 4 * PI - 1) <= 1e-6, "density");
+            violations.expect(std::abs(length(s.wi) - 1) <= 1e-6 && s.to_light == s.wi, "not of unit length");
+            const double u = (random[i][2] >> 8) * 0x1p-24, v = (random[i][3] >> 8) * 0x1p-24;
+            violations.expect(std::abs(height - v) <= 1e-6, "height");
+            violations.expect(std::hypot(s.wi[0], s.wi[1]) * std::abs(std::remainder(turn - u, 1.0)) <= 1e-6,
+                              "azimuth");
+        }
     }
     DistributionTests tests(context);
-    tests.add("environment", histogram, std::vector<double>(BINS * BINS, 1.0 / (BINS * BINS)));
+    tests.add("environment", histogram, uniform_probabilities(histogram));
     return {violations.result("light-environment", Rule::bound), tests.result("light-environment-distribution")};
 }
 } // namespace
@@ -267,6 +346,7 @@ std::vector<Check> light_checks()
     return {check("light-solid-angle", check_solid_angle),
             check("light-density-integral", check_density_integral),
             check("light-agreement", check_agreement),
+            check("light-inversion", check_inversion),
             check("light-distribution", check_distribution, light_cases().size()),
             check("light-behind", check_behind),
             check("light-plane", check_plane),

@@ -21,6 +21,11 @@ TEST_CASE("a sample of an area light lies on it, with the radiance and the densi
     require_passed(light_checks(), "light-agreement");
 }
 
+TEST_CASE("the random numbers of light samples are found again from their points")
+{
+    require_passed(light_checks(), "light-inversion");
+}
+
 TEST_CASE("samples of an area light are uniform: over the area of triangles and disks, over the cone of spheres")
 {
     require_passed(light_checks(), "light-distribution");

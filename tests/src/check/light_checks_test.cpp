@@ -31,3 +31,10 @@ TEST_CASE("points crowded at the centre of a disk are found")
                             "Float r = sqrt(v);\n    return vec2(",
                             "Float r = v;\n    return vec2(") == Names{"light-distribution"});
 }
+
+TEST_CASE("random numbers that swap their roles on a triangle are found")
+{
+    // Still uniform over its area.
+    CHECK(failures_with_bug(light_checks(), "light-", "light/area.h", "uniform_triangle_sample(u, v)",
+                            "uniform_triangle_sample(v, u)") == Names{"light-inversion"});
+}
