@@ -33,8 +33,8 @@ def exact_room(albedos, depth, width, spp, walls=None, camera=None):
 
 def exact_furnaces():
     yield "F1-albedo-0.8-depth-8", exact_room(0.8, 8, 64, 16)
-    for depth in (0, 1, 2, 8, 64, 1000):
-        yield f"F1-albedos-depth-{depth}", exact_room([0.5, 0.8, 0.99], depth, 16 if depth < 1000 else 8, 4)
+    for depth in (0, 1, 2, 8, 64, 1000, 10000):
+        yield f"F1-albedos-depth-{depth}", exact_room([0.5, 0.8, 0.99], depth, 16 if depth < 1000 else 8, 4 if depth < 10000 else 1)
     for depth in (0, 1, 2, 8, 64, 1000, 10000):
         yield f"F1-albedo-0.9999-depth-{depth}", exact_room(0.9999, depth, 16 if depth < 1000 else 8, 1)
     walls = box_triangles([-1, -1, -1], [1, 1, 1])
@@ -172,6 +172,14 @@ def shading_normals():
                                    environment={"radiance": 1})
 
 
+def bumpy_darkness():
+    """How dark shading normals make a white floor: told, not judged."""
+    because = "Shading normals make no light. How much they lose where a sampled direction is below the surface, the least pixel tells."
+    fact = pixels(1, 1024, "bound")
+    yield "F10-least", scene(expect(because, fact, group="stiff"), look([0.5, 1.5, 1], [0, 0, 0], 30, 32), integrator("bsdf", 8), 1024,
+                             [diffuse("white", 1)], [bumpy_floor(8, 10)], environment={"radiance": 1})
+
+
 def accumulation():
     because = "A constant sky: however many samples are summed, their mean is that constant."
     for radiance in (0.1, 1e-8, 1e8):
@@ -189,5 +197,5 @@ def accumulation():
 
 def scenes():
     for part in (exact_furnaces, white_furnaces, moved_furnaces, roulette, dark_surfaces, aimed_furnaces, convex_bodies,
-                 shading_normals, accumulation):
+                 shading_normals, bumpy_darkness, accumulation):
         yield from part()

@@ -86,6 +86,9 @@ def sizes():
         body = {**octasphere(6), "transform": [{"scale": size}]}
         camera = ([c * size for c in (2, 1.5, 3)], [0, 0, 0])
         yield f"S5-size-{size:g}", under_sky(expect(UNDER_SKY + ", at any size.", body_pixels(8, 0.5, 0.9), group="stiff"), [body], camera)
+    fact = {"subject": "load_error", "text": "between -1e+15 and 1e+15", "overrides": ["shapes.0.transform.0.scale=1e18"]}
+    yield "S5-size-1e+18", under_sky(expect("A body whose squares and products floats could not hold is an error.", fact, group="stiff"),
+                                     [{**octasphere(6), "transform": [{"scale": 1}]}])
 
 
 def triangles(positions, indices, **more):
@@ -178,7 +181,7 @@ def difficult_rays():
         block = expect("Rays that meet the diagonal of a square meet one of its triangles.", pixels("float(0.8)", 4), group="stiff")
         yield f"R2-diagonal-{accelerator}", scene(block, look_at_point([0, 0, 10], at, 8), integrator("bsdf", 2), 4, [diffuse("body", 0.8)],
                                                   [{**square, "material": "body"}], accelerator=accelerator, environment=SKY)
-    for gap in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5):
+    for gap in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6):
         floor = {"type": "rectangle", "size": [1, 1], "transform": facing_up(), "material": "floor"}
         sheet = {"type": "rectangle", "size": [1, 1], "transform": facing_down(0, gap, 0), "radiance": 1}
         # Directions within a cone of tan = 1/2 / gap about the normal meet the sheet for certain.

@@ -88,9 +88,10 @@ CheckResult worst_of(const std::vector<CheckResult>& channels)
 void judge_pixels(CheckResult& result, const Fact& fact, const CheckPicture& picture)
 {
     const auto off = fact.text.rule == FactRule::bound ? roundings_beyond : roundings_off;
-    double worst = 0.0, found = fact.value[0];
+    double worst = 0.0, found = fact.value[0], least = picture.pixels.front().mean[0];
     std::size_t others = 0;
     for (const PixelEstimate& pixel : picture.pixels) {
+        least = std::min({least, pixel.mean.x, pixel.mean.y, pixel.mean.z});
         double pixel_worst = 0.0, other_worst = 0.0;
         for (int c = 0; c < 3; ++c) {
             pixel_worst = std::max(pixel_worst, off(pixel.mean[c], fact.value_of(c)));
@@ -110,6 +111,7 @@ void judge_pixels(CheckResult& result, const Fact& fact, const CheckPicture& pic
     result.unit = "ulp";
     result.critical = fact.tolerance;
     pass_if(result, worst <= fact.tolerance);
+    if (fact.text.rule == FactRule::bound) add_note(result, fmt::format("the least is {:.3g}", least));
     if (fact.other.empty()) return;
 
     const double share = static_cast<double>(others) / static_cast<double>(picture.pixels.size());
