@@ -2,8 +2,31 @@
  * with one lane. */
 #include "integrator/work.h"
 
+/* PathVertex's light_pdfs, from the state in which the path arrives. */
+STATIC real4 light_pdfs(SceneView view, PathState path, Surface surface, Hit hit)
+{
+    Float of_sample = 0.0, of_bsdf = 0.0, of_emission = 0.0;
+    Mask met = path.active & (hit.primitive != NO_INDEX);
+    /* Emission, as light samples find it. */
+    if (HAS_AREA) of_emission = light_hit(view, surface, met, path.ray, hit).pdf;
+    if (HAS_ENVIRONMENT && path.active && !met) of_emission = light_escape(view).pdf;
+    /* The light sample once more, and its direction as the BSDF finds it. */
+    if (HAS_LIGHT_SAMPLING && view.settings->sample_lights && met && path.vertices < view.settings->max_depth) {
+        MaterialLanes material = load_material(view, surface.material, met);
+        if ((material.flags & MATERIAL_DELTA) == 0u) {
+            LightSample light = path_light_sample(view, &path, met, light_origin(surface));
+            Frame frame = make_frame(surface.ns);
+            of_sample = light.pdf;
+            if (light.pdf > 0.0)
+                of_bsdf = bsdf_pdf(view, material, met, to_local(frame, surface.wo), to_local(frame, light.wi));
+        }
+    }
+    return (real4)(of_sample, of_bsdf, of_emission, 0.0);
+}
+
 /* Record what a path has met, with the state before and after it scattered there. */
-STATIC PathVertex make_vertex(SceneView view, PathState path, Surface surface, Hit hit, Color emission, Uint number)
+STATIC PathVertex make_vertex(SceneView view, PathState path, Surface surface, Hit hit, Color emission, real4 pdfs,
+                              Uint number)
 {
     PathVertex vertex;
     bool met = hit.primitive != NO_INDEX;
@@ -17,6 +40,7 @@ STATIC PathVertex make_vertex(SceneView view, PathState path, Surface surface, H
     vertex.throughput = (real4)(path.throughput.x, path.throughput.y, path.throughput.z, path.radiance_scale);
     vertex.emission = (real4)(emission.x, emission.y, emission.z, 0.0);
     vertex.radiance = (real4)(path.radiance.x, path.radiance.y, path.radiance.z, 0.0);
+    vertex.light_pdfs = pdfs;
     vertex.primitive = hit.primitive;
     vertex.material = met ? surface.material : NO_INDEX;
     vertex.bsdf = met ? view.materials[surface.material].type : NO_INDEX;
@@ -49,12 +73,14 @@ kernel void replay(SCENE_ARGUMENTS, global const WorkUnit* samples, uint sample_
         Hit hit = path_extend(view, &path);
         Mask met = path.active & (hit.primitive != NO_INDEX);
         Surface surface = make_surface(view.primitives, view.surfaces, view.normals, met, path.ray, hit);
+        real4 pdfs = light_pdfs(view, path, surface, hit);
         path_emission(view, &path, surface, hit);
         Color emission = path.radiance;
         path_shade(view, &path, surface, &rays);
         /* Write it down. */
         if (count < max_vertices)
-            vertices[(size_t)item * max_vertices + count] = make_vertex(view, path, surface, hit, emission, number);
+            vertices[(size_t)item * max_vertices + count] =
+                make_vertex(view, path, surface, hit, emission, pdfs, number);
         count++;
     }
     Uint accident;

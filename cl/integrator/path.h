@@ -147,6 +147,18 @@ STATIC RandomBlock light_words(SceneView view, RandomBlock random)
     return words;
 }
 
+/* Where light samples and shadow rays of the current vertex start. */
+STATIC Vec3 light_origin(Surface surface)
+{
+    return offset_origin(surface, dot3(surface.wo, surface.ng) > 0.0);
+}
+
+/* The light sample of the current vertex. */
+STATIC LightSample path_light_sample(SceneView view, PathState* path, Mask active, Vec3 from)
+{
+    return light_sample(view, active, from, light_words(view, path_random(path, RANDOM_LIGHT)));
+}
+
 /* Sample a light from the current vertex and add it where nothing stands between: the path_connect stage. */
 STATIC void path_connect(SceneView view, PathState* path, Surface surface, Frame frame, MaterialLanes material,
                          RayCounts* rays)
@@ -154,9 +166,8 @@ STATIC void path_connect(SceneView view, PathState* path, Surface surface, Frame
     Mask active = path->active & ((material.flags & MATERIAL_DELTA) == 0u);
     if (none_of(active)) return;
     Vec3 wo = to_local(frame, surface.wo);
-    Vec3 from = offset_origin(surface, dot3(surface.wo, surface.ng) > 0.0);
-    RandomBlock random = light_words(view, path_random(path, RANDOM_LIGHT));
-    LightSample light = light_sample(view, active, from, random);
+    Vec3 from = light_origin(surface);
+    LightSample light = path_light_sample(view, path, active, from);
     /* Evaluate the BSDF towards the light. */
     Vec3 wi = to_local(frame, light.wi);
     Mask lit = active & (light.pdf > 0.0) & sides_agree(surface, light.wi, wi);

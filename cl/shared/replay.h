@@ -13,6 +13,8 @@ typedef struct PathVertex {
     real4 throughput;       /* after scattering and roulette; w = the part of it that refraction will undo */
     real4 emission;         /* radiance so far with what was met here; w = 0 */
     real4 radiance;         /* and with the light sampled here; w = 0 */
+    real4 light_pdfs; /* per solid angle: x of the light sample here, y of its direction under BSDF sampling, both 0
+                         where none was drawn; z of the emission met here under light sampling; w = 0 */
     uint primitive;
     uint material; /* index into Material[] */
     uint bsdf;     /* BSDF_* of features.h */

@@ -27,9 +27,13 @@ std::vector<Quantity> quantities_of(const PathRecord& path, std::size_t i)
                {"error bound", Of::length, Vec3(v.position.s[3])},
                {"geometric normal", Of::direction, xyz(v.geometric_normal)},
                {"shading normal", Of::direction, xyz(v.shading_normal)}};
-    all.push_back({"emission met", Of::colour, xyz(v.emission) - before});
+    // A light found by chance, with the density of light samples that could have found it.
+    all.insert(all.end(), {{"emission met", Of::colour, xyz(v.emission) - before},
+                           {"as light sample", Of::number, Vec3(v.light_pdfs.s[2])}});
     if (v.primitive != NO_INDEX) {
         all.insert(all.end(), {{"light sampled", Of::colour, xyz(v.radiance) - xyz(v.emission)},
+                               {"light's pdf", Of::number, Vec3(v.light_pdfs.s[0])},
+                               {"as BSDF sample", Of::number, Vec3(v.light_pdfs.s[1])},
                                {"next direction", Of::direction, xyz(v.direction)},
                                {"its pdf", Of::number, Vec3(v.shading_normal.s[3])},
                                {"throughput", Of::colour, xyz(v.throughput)}});

@@ -27,7 +27,7 @@ static_assert(sizeof(Primitive) == 3 * sizeof(real4));
 static_assert(sizeof(Light) == 2 * sizeof(real4));
 static_assert(sizeof(PixelBlock) == 3 * sizeof(real4));
 static_assert(sizeof(PixelAov) == 2 * sizeof(real4));
-static_assert(sizeof(PathVertex) == 7 * sizeof(real4) + 8 * sizeof(uint));
+static_assert(sizeof(PathVertex) == 8 * sizeof(real4) + 8 * sizeof(uint));
 } // namespace
 
 fp64::real widen(real x)
@@ -89,6 +89,7 @@ fp64::PathVertex widen(const PathVertex& v)
             widen(v.throughput),
             widen(v.emission),
             widen(v.radiance),
+            widen(v.light_pdfs),
             v.primitive,
             v.material,
             v.bsdf,

@@ -181,6 +181,54 @@ TEST_CASE("the vertices of a path tell its whole story", "[render][replay]")
         }
 }
 
+TEST_CASE("densities of a vertex weigh the light that it gathers", "[render][replay]")
+{
+    // One two-sided light over a diffuse floor: f cos is albedo times the BSDF's density, and every throughput a power
+    // of the albedo.
+    constexpr double ALBEDO = 0.5, RADIANCE = 3.0;
+    const Loaded loaded(R"({
+        "camera": {"position": [0, 3, 0.1], "look_at": [0, 0, 0], "vertical_fov": 60},
+        "film": {"size": [12, 9]},
+        "integrator": {"type": "path", "max_depth": 3, "roulette": "off"},
+        "materials": [{"name": "grey", "type": "diffuse", "albedo": 0.5}],
+        "shapes": [{"type": "box", "size": [4, 4, 4], "material": "grey", "flip_normals": true,
+                    "transform": {"translate": [0, 2, 0]}}],
+        "lights": [{"type": "disk", "radius": 1.5, "radiance": 3, "two_sided": true,
+                    "transform": [{"rotate": {"axis": [1, 0, 0], "angle": 90}}, {"translate": [0, 1.5, 0]}]}]
+    })");
+    for (const Device& device : test_devices())
+        for (const Precision precision : precisions_of(device)) {
+            const double tolerance = precision == Precision::fp64 ? 1e-12 : 1e-5;
+            std::size_t sampled = 0, met = 0;
+            for (const PathRecord& path : replay(device, loaded.scene, loaded.geometry, precision, every_pixel(5), 8)) {
+                double throughput = 1.0, pdf = 0.0;
+                for (std::size_t i = 0; i < path.vertices.size(); ++i) {
+                    const fp64::PathVertex& v = path.vertices[i];
+                    const double before = i == 0 ? 0.0 : path.vertices[i - 1].radiance.s[0];
+                    const double emission = v.emission.s[0] - before, light = v.radiance.s[0] - v.emission.s[0];
+                    const double sum = 1.0 + v.radiance.s[0];
+                    const auto [of_sample, of_bsdf, of_emission, unused] = v.light_pdfs.s;
+                    CHECK((of_emission > 0.0) == (v.light != NO_INDEX));
+                    if (emission > 0.0 && i > 0) {
+                        ++met;
+                        const double weight = pdf * pdf / (pdf * pdf + of_emission * of_emission);
+                        CHECK(std::abs(emission - throughput * RADIANCE * weight) < tolerance * sum);
+                    }
+                    if (light > 0.0) {
+                        ++sampled;
+                        const double weight = of_sample * of_sample / (of_sample * of_sample + of_bsdf * of_bsdf);
+                        const double expected = throughput * ALBEDO * RADIANCE * of_bsdf / of_sample * weight;
+                        CHECK(std::abs(light - expected) < tolerance * sum);
+                    }
+                    throughput *= ALBEDO;
+                    pdf = v.shading_normal.s[3];
+                }
+            }
+            CHECK(sampled > 50);
+            CHECK(met > 5);
+        }
+}
+
 TEST_CASE("a vertex of a known scene holds the known numbers", "[render][replay]")
 {
     const Loaded loaded(FLOOR);
