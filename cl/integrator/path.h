@@ -92,13 +92,20 @@ STATIC Hit path_extend(SceneView view, PathState* path)
     return hit;
 }
 
+/* Weight of light found with density a that could have been found with density b too. */
+STATIC Float mis_weight(SceneView view, Float a, Float b)
+{
+    if (HAS_BALANCE_HEURISTIC && view.settings->balance_heuristic) return balance_heuristic(a, b);
+    return power_heuristic(a, b);
+}
+
 /* Weight of emission that a ray has met, when light_sample would have found it with density light_pdf. */
 STATIC Float emission_weight(SceneView view, PathState* path, Float light_pdf)
 {
     Float weight = (Float)(0.0);
     if (HAS_EMISSION_SAMPLING && view.settings->count_emission) {
         weight = (Float)(1.0);
-        if (HAS_LIGHT_SAMPLING && view.settings->sample_lights) weight = power_heuristic(path->pdf, light_pdf);
+        if (HAS_LIGHT_SAMPLING && view.settings->sample_lights) weight = mis_weight(view, path->pdf, light_pdf);
     }
     return path->delta ? (Float)(1.0) : weight;
 }
@@ -177,7 +184,7 @@ STATIC void path_connect(SceneView view, PathState* path, Surface surface, Frame
     /* Weigh it against BSDF sampling. */
     Float weight = abs_of(wi.z) / light.pdf;
     if (HAS_EMISSION_SAMPLING && view.settings->count_emission)
-        weight *= power_heuristic(light.pdf, bsdf_pdf(view, material, lit, wo, wi));
+        weight *= mis_weight(view, light.pdf, bsdf_pdf(view, material, lit, wo, wi));
     /* Add the light of the sample where nothing stands between. */
     Ray shadow = {from, light.to_light, light.t_max, surface.primitive, light.primitive};
     bool complete = true;

@@ -48,8 +48,9 @@ STATIC Float sphere_one_minus_cos(Float sin2)
     return sin2 / (1.0 + sqrt_of(1.0 - sin2));
 }
 
-/* Outside: uniform over the cone of directions (Shirley, Wang, Zimmerman 1996); inside: uniform over the area. */
-STATIC AreaPoint sphere_light_sample(Vec3 centre, Float radius, Vec3 from, Float u, Float v)
+/* Outside: uniform over the cone of directions (Shirley, Wang, Zimmerman 1996), or over the half of the area that is
+ * seen; inside: uniform over the area. */
+STATIC AreaPoint sphere_light_sample(Vec3 centre, Float radius, Vec3 from, bool by_cone, Float u, Float v)
 {
     Vec3 to_centre = sub3(centre, from);
     Float distance2 = dot3(to_centre, to_centre);
@@ -68,20 +69,27 @@ STATIC AreaPoint sphere_light_sample(Vec3 centre, Float radius, Vec3 from, Float
     /* Or a point anywhere on it. */
     Vec3 normal = uniform_sphere_sample(u, v);
     Vec3 anywhere = fma3(normal, radius, to_centre);
-    point.to_point = choose3(outside, near, anywhere);
-    point.normal = choose3(outside, scale3(sub3(near, to_centre), 1.0 / radius), normal);
+    Mask in_direction = outside & to_mask(by_cone);
+    point.to_point = choose3(in_direction, near, anywhere);
+    point.normal = choose3(in_direction, scale3(sub3(near, to_centre), 1.0 / radius), normal);
     Float by_area = area_to_solid_angle(anywhere, normal, 4.0 * PI * square(radius));
-    point.pdf = outside ? uniform_cone_pdf(one_minus_cos) : by_area;
+    by_area = outside & (dot3(normal, anywhere) > 0.0) ? (Float)(0.0) : by_area;
+    point.pdf = in_direction ? uniform_cone_pdf(one_minus_cos) : by_area;
     return point;
 }
 
 /* Density with which a sphere light is sampled in the direction of a point on it. */
-STATIC Float sphere_light_pdf(Vec3 centre, Float radius, Vec3 from, Vec3 to_point, Vec3 normal)
+STATIC Float sphere_light_pdf(Vec3 centre, Float radius, Vec3 from, Vec3 to_point, Vec3 normal, bool by_cone)
 {
     Vec3 to_centre = sub3(centre, from);
     Float sin2 = square(radius) / dot3(to_centre, to_centre);
     Float by_area = area_to_solid_angle(to_point, normal, 4.0 * PI * square(radius));
-    return sin2 < 1.0 ? uniform_cone_pdf(sphere_one_minus_cos(sin2)) : by_area;
+    return (sin2 < 1.0) & to_mask(by_cone) ? uniform_cone_pdf(sphere_one_minus_cos(sin2)) : by_area;
+}
+
+STATIC bool spheres_by_cone(SceneView view)
+{
+    return !(HAS_SPHERE_AREA && view.settings->sphere_area);
 }
 
 /* Sample the lights `primitive` of the active lanes from a point; radiance and the choice of the light are the
@@ -102,7 +110,7 @@ STATIC AreaPoint area_light_sample(SceneView view, Uint primitive, Mask active, 
         point.pdf = mine ? disk.pdf : point.pdf;
     }
     if (HAS_SPHERE && any_of(active & (kind == PRIMITIVE_SPHERE))) {
-        AreaPoint sphere = sphere_light_sample(a, b.x, from, u, v);
+        AreaPoint sphere = sphere_light_sample(a, b.x, from, spheres_by_cone(view), u, v);
         Mask mine = kind == PRIMITIVE_SPHERE;
         point.to_point = choose3(mine, sphere.to_point, point.to_point);
         point.normal = choose3(mine, sphere.normal, point.normal);
@@ -126,7 +134,9 @@ STATIC Float area_light_pdf(SceneView view, Surface surface, Mask active, Ray ra
         Float radius, kind, unused;
         gather_real4(view.primitives[i].a, hit.primitive, active, &centre.x, &centre.y, &centre.z, &kind);
         gather_real4(view.primitives[i].b, hit.primitive, active, &radius, &unused, &unused, &unused);
-        pdf = kind == PRIMITIVE_SPHERE ? sphere_light_pdf(centre, radius, ray.origin, to_point, surface.ng) : pdf;
+        pdf = kind == PRIMITIVE_SPHERE
+                  ? sphere_light_pdf(centre, radius, ray.origin, to_point, surface.ng, spheres_by_cone(view))
+                  : pdf;
     }
     return pdf;
 }

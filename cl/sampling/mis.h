@@ -8,3 +8,9 @@ STATIC Float power_heuristic(Float a, Float b)
 {
     return 1.0 / (1.0 + square(b / a));
 }
+
+/* The same with exponent 1, which is the balance heuristic (eq. 9.8). */
+STATIC Float balance_heuristic(Float a, Float b)
+{
+    return 1.0 / (1.0 + b / a);
+}

@@ -36,6 +36,8 @@
     X(EMISSION_SAMPLING, emission_sampling,                                                                            \
       "emission met by a BSDF-sampled ray counts after non-delta scattering too")                                      \
     X(UNIFORM_HEMISPHERE, uniform_hemisphere, "directions uniform over the hemisphere")                                \
+    X(BALANCE_HEURISTIC, balance_heuristic, "lights found in two ways are weighed by the balance heuristic")           \
+    X(SPHERE_AREA, sphere_area, "spheres that emit are sampled by area from outside too")                              \
     X(ROULETTE, roulette, "Russian roulette")                                                                          \
     X(FILTER, filter, "pixel filters other than the box")                                                              \
     X(AOV, aov, "albedo, normal and depth of the first hit")

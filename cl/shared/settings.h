@@ -28,11 +28,12 @@ typedef struct RenderSettings {
     uint accelerator;        /* ACCELERATOR_* of features.h */
     uint primitive_count;
     uint light_count;
-    uint alias_shift;       /* 32 - log2(number of alias buckets) */
-    uint environment_light; /* index of the environment in Light[], or NO_INDEX */
-    uint sampler;           /* SAMPLER_* of features.h */
-    uint replicates;        /* of the Sobol sequence: 1 or 2 */
-    uint padding[2];
+    uint alias_shift;          /* 32 - log2(number of alias buckets) */
+    uint environment_light;    /* index of the environment in Light[], or NO_INDEX */
+    uint sampler;              /* SAMPLER_* of features.h */
+    uint replicates;           /* of the Sobol sequence: 1 or 2 */
+    uint balance_heuristic;    /* 0 or 1: weigh by the balance heuristic instead of the power heuristic */
+    uint sphere_area;          /* 0 or 1: sample lights that are spheres by area from outside too, instead of by cone */
     real4 filter_parameters;   /* radius; gaussian: sigma, both in pixels, and the mass within the radius; 0 */
     real4 roulette_parameters; /* constant survival probability; 0; 0; 0 */
     real4 scene_bounds;        /* centre and radius of the bounding sphere of the geometry */

@@ -48,8 +48,12 @@ def closed_forms():
         for kind in ESTIMATORS:
             move = {"translate": [0, 1.6 * math.cos(theta), 1.6 * math.sin(theta)]}
             light = {"type": "sphere", "radius": 1, "radiance": RADIANCE, "transform": move}
-            yield f"L0-sphere-{theta}-{kind}", lit_floor(expect(because, mean("rho*L*F", delta_of(kind)), where), kind, 128,
-                                                         [light], **far)
+            block = expect(because, mean("rho*L*F", delta_of(kind)), where)
+            yield f"L0-sphere-{theta}-{kind}", lit_floor(block, kind, 128, [light], **far)
+            if kind in ("light", "path"):
+                by_area = lit_floor(expect(because, mean("rho*L*F", 0.02), where), kind, 128, [light], **far)
+                by_area["integrator"].update(sphere_lights="area", **({"heuristic": "balance"} if kind == "path" else {}))
+                yield f"L0-sphere-{theta}-{kind}-by-area", by_area
     where = {**FULL, "A": "0.7/0.9", "B": "1.3/0.9", "F": PARALLEL, "S": "float(0.7)"}
     because = "A rectangle of form factor F hides that part of a sky of radiance S: rho (L F + S (1 - F))."
     for kind in ESTIMATORS:

@@ -43,8 +43,8 @@ def glass(name, ior, **more):
     return {"name": name, "type": "dielectric", "ior": ior, **more}
 
 
-def integrator(kind, depth, roulette="off"):
-    return {"type": kind, "max_depth": depth, "roulette": roulette}
+def integrator(kind, depth, roulette="off", **more):
+    return {"type": kind, "max_depth": depth, "roulette": roulette, **more}
 
 
 def look(position, at, fov, width, height=None, **more):

@@ -138,7 +138,7 @@ void LightScene::add_environment(const Point& radiance, double weight)
     lights.push_back({LIGHT_ENVIRONMENT, NO_INDEX, 0, 0, make_real4(radiance[0], radiance[1], radiance[2], weight)});
 }
 
-DeviceLights::DeviceLights(const Device& device, LightScene scene, std::uint32_t lanes)
+DeviceLights::DeviceLights(const Device& device, LightScene scene, std::uint32_t lanes, bool sphere_area)
     : device_(device), lanes_(lanes), scene_(std::move(scene))
 {
     std::vector<double> weights;
@@ -149,6 +149,7 @@ DeviceLights::DeviceLights(const Device& device, LightScene scene, std::uint32_t
     for (std::size_t i = 0; i < scene_.lights.size(); ++i)
         scene_.lights[i].radiance.s[3] = static_cast<float>(probabilities_[i]);
 
+    settings_.sphere_area = sphere_area;
     settings_.primitive_count = static_cast<uint>(scene_.primitives.size());
     settings_.light_count = static_cast<uint>(scene_.lights.size());
     settings_.alias_shift = 32 - static_cast<uint>(std::countr_zero(table_.size()));

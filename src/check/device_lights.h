@@ -62,8 +62,8 @@ struct DeviceLightHit {
 class DeviceLights
 {
 public:
-    // Turns the weights into an alias table and probabilities.
-    DeviceLights(const Device& device, LightScene scene, std::uint32_t lanes = 0);
+    // Turns the weights into an alias table and probabilities; spheres are sampled by area where that is asked for.
+    DeviceLights(const Device& device, LightScene scene, std::uint32_t lanes = 0, bool sphere_area = false);
 
     // The probability that the table gives each light.
     const std::vector<double>& probabilities() const { return probabilities_; }

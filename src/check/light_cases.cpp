@@ -65,6 +65,7 @@ std::vector<LightCase> light_cases()
             {"disk, huge", disk_light({1, 1, 0}, {0, -1, 0}, 5)},
             {"disk, aslant", disk_light({0.5, 1, 0}, {-0.6, -0.8, 0}, 0.5), {0, 0, 0}, 0, Kind::typical},
             {"sphere", sphere_light({1, 0.5, 0}, 0.5), {0, 0, 0}, 0, Kind::typical},
+            {"sphere by area", sphere_light({1, 0.5, 0}, 0.5), {0, 0, 0}, 0, Kind::plain, true},
             {"sphere, tiny", sphere_light({1, 0.5, 0}, 1e-4), {0, 0, 0}, 0, Kind::tiny},
             {"sphere, huge", sphere_light({0, 101, 0}, 100)},
             {"sphere, near", sphere_light({0, 1.001, 0}, 1)},

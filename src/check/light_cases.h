@@ -22,6 +22,7 @@ struct LightCase {
         lopsided // densities differ so much over it that a mean of them needs more samples than there is time for
     };
     Kind kind = Kind::plain;
+    bool by_area = false; // a sphere seen from outside
 };
 
 // Triangles, disks and spheres seen from the side that emits: of all sizes and distances, aslant, a sphere from inside.

@@ -41,7 +41,7 @@ std::vector<Point> directions_of(const std::vector<DeviceLightSample>& samples)
 
 DeviceLights lights_of(const CheckContext& context, const LightCase& c, uint light_flags = 0)
 {
-    return DeviceLights(*context.device, light_of(c.primitive, light_flags, c.surface_flags), context.lanes);
+    return DeviceLights(*context.device, light_of(c.primitive, light_flags, c.surface_flags), context.lanes, c.by_area);
 }
 
 bool is_tiniest(const LightCase& c)
@@ -66,14 +66,28 @@ Results check_solid_angle(const CheckContext& context)
         error.set_subject(c.name);
         error.add(std::abs(sum / static_cast<double>(samples.size()) / solid_angle(c.primitive, c.from) - 1));
         violations.set_subject(c.name);
-        // Rounding may turn a rim of the smallest sphere away.
+        // Rounding may turn a rim of the smallest sphere away; by area most of a sphere is turned away.
         const bool may_lose = c.kind == Kind::tiny && c.primitive.a.s[3] == PRIMITIVE_SPHERE;
-        violations.expect(without <= (may_lose ? samples.size() / 10000 : 0), "samples without a density");
+        const std::size_t allowed = c.by_area ? samples.size() * 9 / 10 : may_lose ? samples.size() / 10000 : 0;
+        violations.expect(without <= allowed, "samples without a density");
     }
     return {error.result("light-solid-angle", 1e-3, "relative"), violations.result("light-solid-angle-samples")};
 }
 
-// The density integrates to 1 over all directions that meet the light.
+// All of a sphere's area, though it is seen from outside.
+bool is_whole_sphere(const LightCase& c)
+{
+    const Primitive& p = c.primitive;
+    return p.a.s[3] == PRIMITIVE_SPHERE && (c.by_area || length(point_of(p.a) - c.from) < p.b.s[0]);
+}
+
+// The share of samples on the side of the light that is seen: by area, the cap of a sphere.
+double seen_share(const LightCase& c)
+{
+    return c.by_area ? 0.5 * (1 - c.primitive.b.s[0] / length(point_of(c.primitive.a) - c.from)) : 1;
+}
+
+// The density integrates to the share of samples that are seen over all directions that meet the light.
 Results check_density_integral(const CheckContext& context)
 {
     constexpr std::size_t DIRECTIONS = 1 << 17;
@@ -109,7 +123,7 @@ Results check_density_integral(const CheckContext& context)
         violations.set_subject(c.name);
         violations.expect(met > DIRECTIONS / 50, "too few directions meet it");
         error.set_subject(c.name);
-        error.add(std::abs(integral - 1));
+        error.add(std::abs(integral - seen_share(c)));
     }
     return {error.result("light-density-integral", 4e-3, "relative"),
             violations.result("light-density-integral-directions")};
@@ -132,7 +146,9 @@ Results check_agreement(const CheckContext& context)
                 ++missed;
                 continue;
             }
-            if (samples[i].pdf > 0)
+            // By area the density at a sphere's rim is infinite.
+            const bool at_rim = c.by_area && samples[i].pdf * solid_angle(c.primitive, c.from) > 10;
+            if (samples[i].pdf > 0 && !at_rim)
                 violations.expect(std::abs(hits[i].pdf / samples[i].pdf - 1) <= 1e-3, "density of the ray");
             violations.expect(hits[i].radiance == LIGHT_RADIANCE || !(samples[i].pdf > 0), "radiance of the ray");
         }
@@ -170,7 +186,7 @@ std::array<double, 2> invert(const LightCase& c, const Point& to_light)
         const double x = dot(on_light - a, e) / p.c.s[0], y = dot(on_light - a, f) / p.c.s[0];
         return turn_and(x, y, x * x + y * y);
     }
-    if (length(to_a) < p.b.s[0]) {
+    if (is_whole_sphere(c)) {
         const Point n = unit(on_light - a);
         return turn_and(n[0], n[1], 0.5 * (1 - n[2]));
     }
@@ -212,7 +228,7 @@ Results check_inversion(const CheckContext& context)
         for (std::size_t i = 0; i < count; ++i) {
             const double u = (random[i][2] >> 8) * 0x1p-24, v = (random[i][3] >> 8) * 0x1p-24;
             const std::array<double, 2> found = invert(c, samples[i].to_light);
-            // Near the first corner of a triangle, or the centre, the other number is hard to tell.
+            // Near the first corner of a triangle, the centre or a pole the other number is hard to tell.
             const double along = is_triangle ? u : v, along_error = found[is_triangle ? 0 : 1] - along;
             double across_error = found[1] - v;
             if (!is_triangle) {
@@ -221,8 +237,8 @@ Results check_inversion(const CheckContext& context)
                 across_error = std::remainder(found[0] - u - first_turn.value_or(0), 1.0);
                 if (!first_turn) continue;
             }
-            error.add(std::max(std::abs(along_error), std::sqrt(along) * std::abs(across_error)) /
-                      relative_rounding(c));
+            const double across = std::sqrt(along * (is_whole_sphere(c) ? 1 - along : 1));
+            error.add(std::max(std::abs(along_error), across * std::abs(across_error)) / relative_rounding(c));
         }
     }
     return {error.result("light-inversion", INVERSION_ROUNDINGS, "roundings")};

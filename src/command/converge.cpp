@@ -48,8 +48,11 @@ int check_bench(const ConvergeArguments& arguments, Log& log)
 void summarise(const Analysis& analysis, Log& log)
 {
     for (const ConfigurationAnalysis& configuration : analysis.configurations) {
-        if (configuration.curve.empty()) continue;
         const BiasVerdict& verdict = configuration.verdict;
+        if (configuration.curve.empty()) {
+            log.info(fmt::format("{}: {}", configuration.name, fmt::join(verdict.reasons, " ")));
+            continue;
+        }
         log.info(fmt::format("{}: {}; slope {:.3f} [{:.3f}, {:.3f}], relMSE {:.3g} after {:.3g} s", configuration.name,
                              bias_result_name(verdict.result), configuration.slope_samples.estimate,
                              configuration.slope_samples.low, configuration.slope_samples.high,
@@ -70,11 +73,6 @@ int converge(const ConvergeArguments& arguments, const std::string& command_line
     options.stop = interrupted;
     make_study_folder(arguments.folder);
     const Study study = run_study(options, log);
-    const auto has_runs = [](const StudiedConfiguration& studied) { return !studied.runs.empty(); };
-    if (std::none_of(study.configurations.begin(), study.configurations.end(), has_runs)) {
-        log.warning("interrupted before the first checkpoint: nothing is written.");
-        return static_cast<int>(ExitCode::interrupted);
-    }
     const Analysis analysis = analyse(study);
     write_study(study, analysis, arguments.folder);
     summarise(analysis, log);

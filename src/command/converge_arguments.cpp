@@ -100,8 +100,9 @@ void add_converge_options(CLI::App& command, ConvergeArguments& a)
         ->allow_extra_args(false);
     command
         .add_option("--compare", a.axes,
-                    "Configurations along an axis; may be given several times: integrators, samplers,\n"
-                    "roulette, accelerators, specialization, precision, fast_math or devices")
+                    "Configurations along an axis; may be given several times: integrators, heuristics,\n"
+                    "sphere_lights, samplers, roulette, accelerators, specialization, precision, fast_math\n"
+                    "or devices")
         ->type_name("AXIS")
         ->allow_extra_args(false);
     command.add_option("--device", a.device, "Device of every configuration that names none, as for render")

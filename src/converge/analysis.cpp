@@ -167,7 +167,10 @@ ConfigurationAnalysis analyse_configuration(const StudiedConfiguration& studied,
 {
     ConfigurationAnalysis analysis;
     analysis.name = studied.prepared.configuration.name;
-    if (runs.points() == 0) return analysis;
+    if (runs.points() == 0) {
+        analysis.verdict.reasons.emplace_back("No run reached a checkpoint.");
+        return analysis;
+    }
     const std::vector<Draw> draws = bootstrap_draws(runs.runs(), options.draws);
     const DrawnFits fits = fit_draws(runs, draws);
     const double floor_error = studied.reference->floor_error;

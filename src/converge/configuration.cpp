@@ -96,6 +96,15 @@ std::vector<Configuration> along_names(std::vector<std::string> names, const std
     return configurations;
 }
 
+// A setting of the integrator path.
+std::vector<Configuration> along_path_settings(const std::string& key, const std::vector<std::string>& names)
+{
+    std::vector<Configuration> configurations = along_names(names, "integrator." + key, "");
+    for (Configuration& configuration : configurations)
+        configuration.overrides.insert(configuration.overrides.begin(), "integrator.type=path");
+    return configurations;
+}
+
 std::vector<Configuration> along_devices(const std::vector<DeviceInfo>& devices)
 {
     std::vector<Configuration> configurations;
@@ -155,8 +164,9 @@ Configuration parse_configuration(const std::string& text)
 
 const std::vector<std::string>& comparison_axes()
 {
-    static const std::vector<std::string> axes{"integrators",    "samplers",  "roulette",  "accelerators",
-                                               "specialization", "precision", "fast_math", "devices"};
+    static const std::vector<std::string> axes{"integrators", "heuristics",   "sphere_lights",  "samplers",
+                                               "roulette",    "accelerators", "specialization", "precision",
+                                               "fast_math",   "devices"};
     return axes;
 }
 
@@ -164,6 +174,8 @@ std::vector<Configuration> configurations_along(const std::string& axis, const S
                                                 const std::vector<DeviceInfo>& devices)
 {
     if (axis == "integrators") return along_names(integrator_table().variant_names(), "integrator.type", "normals");
+    if (axis == "heuristics") return along_path_settings("heuristic", {"power", "balance"});
+    if (axis == "sphere_lights") return along_path_settings("sphere_lights", {"cone", "area"});
     if (axis == "samplers") return along_names(sampler_table().variant_names(), "sampler.type", "");
     if (axis == "accelerators") return along_names(accelerator_table().variant_names(), "accelerator.type", "auto");
     // Without a limit of the depth, roulette is what ends the paths.

@@ -294,6 +294,11 @@ BiasVerdict judge_bias(const BiasEvidence& evidence, const VerdictLevels& levels
         verdict.reasons.push_back(fmt::format("A bias of {:.2g} % could hide, and {:.2g} % must not: take more samples "
                                               "or seeds.",
                                               100 * verdict.detectable_bias, 100 * levels.delta));
+    if (has_pictures && !evidence.independent_samples && evidence.picture_means.size() < ENOUGH_SEEDS)
+        verdict.reasons.push_back(
+            fmt::format("The errors of these samples are known by the spread between {} seeds only; "
+                        "{} or more tell them well.",
+                        evidence.picture_means.size(), ENOUGH_SEEDS));
     return verdict;
 }
 } // namespace etendue

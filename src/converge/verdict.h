@@ -71,6 +71,8 @@ struct VerdictLevels {
 constexpr std::size_t TESTS_OF_VERDICT = 6;
 // The floor, as an MSE, over the last error that the floor's test must be able to see.
 constexpr double FLOOR_POWER = 4.0;
+// Of other samples than independent ones only the spread between seeds tells the error: so many tell it well.
+constexpr std::size_t ENOUGH_SEEDS = 16;
 // Slopes of independent samples: -1 within this, beyond their interval.
 constexpr double EXPECTED_SLOPE = -1.0, SLOPE_TOLERANCE = 0.05;
 

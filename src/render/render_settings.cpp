@@ -67,6 +67,8 @@ void set_integrator(RenderSettings& settings, const IntegratorDescription& integ
     settings.sample_lights = has_lights && (type == IntegratorType::light || type == IntegratorType::path);
     settings.count_emission = type != IntegratorType::light;
     settings.uniform_hemisphere = type == IntegratorType::hemisphere;
+    settings.balance_heuristic = type == IntegratorType::path && integrator.heuristic == MisHeuristic::balance;
+    settings.sphere_area = settings.sample_lights && integrator.sphere_lights == SphereLights::area;
     settings.roulette = roulette_number(integrator.roulette);
     settings.roulette_start = integrator.roulette_start;
     settings.roulette_parameters = make_real4(integrator.roulette_probability, 0, 0);

@@ -59,6 +59,8 @@ Specialization scene_features(const Scene& scene, const Geometry& geometry, cons
     s.set(Feature::LIGHT_SAMPLING, settings.sample_lights != 0);
     s.set(Feature::EMISSION_SAMPLING, settings.count_emission != 0 && !geometry.lights.empty());
     s.set(Feature::UNIFORM_HEMISPHERE, settings.uniform_hemisphere != 0);
+    s.set(Feature::BALANCE_HEURISTIC, settings.balance_heuristic != 0);
+    s.set(Feature::SPHERE_AREA, settings.sphere_area != 0);
     s.set(Feature::ROULETTE, settings.roulette != ROULETTE_OFF);
     s.set(Feature::FILTER, scene.film.filter != FilterType::box);
     s.set(Feature::AOV, has_aov);

@@ -42,12 +42,20 @@ struct FilmDescription {
 enum class IntegratorType { normals, hemisphere, bsdf, light, path };
 enum class RouletteType { off, constant, throughput };
 
+// How light samples and BSDF samples are weighed; in the order of their names in integrator_table().
+enum class MisHeuristic { power, balance };
+
+// How spheres that emit are sampled from outside; in the order of their names there.
+enum class SphereLights { cone, area };
+
 struct IntegratorDescription {
     IntegratorType type = IntegratorType::path;
     std::optional<std::uint32_t> max_depth = 12; // surface vertices at which light is gathered; empty: no limit
     RouletteType roulette = RouletteType::throughput;
     double roulette_probability = 0.8; // survival; constant only
     std::uint32_t roulette_start = 3;  // vertices before roulette begins
+    MisHeuristic heuristic = MisHeuristic::power;
+    SphereLights sphere_lights = SphereLights::cone;
     SourceLocation location;
 };
 

@@ -64,6 +64,8 @@ IntegratorDescription parse_integrator(const Fields& scene)
     description.type = static_cast<IntegratorType>(integrator->variant());
     description.max_depth.reset();
     if (const auto depth = integrator->depth("max_depth")) description.max_depth = static_cast<std::uint32_t>(*depth);
+    description.heuristic = static_cast<MisHeuristic>(integrator->name("heuristic"));
+    description.sphere_lights = static_cast<SphereLights>(integrator->name("sphere_lights"));
     description.roulette = static_cast<RouletteType>(roulette->variant());
     if (description.roulette == RouletteType::constant)
         description.roulette_probability = roulette->number("probability");

@@ -58,6 +58,10 @@ TEST_CASE("every axis gives its configurations", "[converge]")
     Scene scene;
     const auto along = [&](const std::string& axis) { return names_of(configurations_along(axis, scene, {})); };
     CHECK(along("integrators") == std::vector<std::string>{"hemisphere", "bsdf", "light", "path"});
+    CHECK(along("heuristics") == std::vector<std::string>{"power", "balance"});
+    CHECK(configurations_along("heuristics", scene, {})[1].text() ==
+          "balance:integrator.type=path,integrator.heuristic=balance");
+    CHECK(along("sphere_lights") == std::vector<std::string>{"cone", "area"});
     CHECK(along("roulette") == std::vector<std::string>{"off", "constant", "throughput"});
     CHECK(along("accelerators") == std::vector<std::string>{"none", "lbvh"});
     CHECK(along("specialization") == std::vector<std::string>{"specialised", "general"});

@@ -155,6 +155,23 @@ TEST_CASE("a study that is interrupted reports what it has", "[converge]")
     CHECK_THAT(read_file((folder.path() / "report.html").string()), Contains("Interrupted"));
 }
 
+TEST_CASE("a study that is interrupted before its first checkpoint says so in a report", "[converge]")
+{
+    Quiet quiet;
+    for (const char* const reference : {"none", "auto"}) {
+        StudyOptions options = small_study(reference);
+        options.stop = [] { return true; };
+        const Study study = run_study(options, quiet.log);
+        CHECK(study.interrupted);
+        const TemporaryFolder folder;
+        write_study(study, analyse(study), folder.path().string());
+        const std::string html = read_file((folder.path() / "report.html").string());
+        CHECK_THAT(html, Contains("Interrupted"));
+        CHECK_THAT(html, Contains("No run reached a checkpoint."));
+        CHECK(read_file((folder.path() / "converge.json").string()).find("UNKNOWN") != std::string::npos);
+    }
+}
+
 TEST_CASE("checkpoints in time are reached in time", "[converge]")
 {
     Quiet quiet;

@@ -115,6 +115,22 @@ TEST_CASE("each integrator is a choice of light sampling, emission and direction
     }
 }
 
+TEST_CASE("how lights are found is a choice of the integrators that sample them")
+{
+    const auto with = [](const char* integrator) {
+        return settings_of({std::string("integrator.type=\"") + integrator + '"', "integrator.heuristic=\"balance\"",
+                            "integrator.sphere_lights=\"area\""});
+    };
+    CHECK(settings_of({}).balance_heuristic == 0);
+    CHECK(settings_of({}).sphere_area == 0);
+    CHECK(with("path").balance_heuristic == 1);
+    CHECK(with("path").sphere_area == 1);
+    CHECK(with("light").balance_heuristic == 0); // nothing to weigh
+    CHECK(with("light").sphere_area == 1);
+    CHECK(with("bsdf").balance_heuristic == 0);
+    CHECK(with("bsdf").sphere_area == 0);
+}
+
 TEST_CASE("without a light none is sampled")
 {
     const RenderSettings s = settings_of({"lights=[]"});

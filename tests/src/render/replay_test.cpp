@@ -187,13 +187,13 @@ TEST_CASE("densities of a vertex weigh the light that it gathers", "[render][rep
     // of the albedo.
     constexpr double ALBEDO = 0.5, RADIANCE = 3.0;
     const Loaded loaded(R"({
-        "camera": {"position": [0, 3, 0.1], "look_at": [0, 0, 0], "vertical_fov": 60},
+        "camera": {"position": [0.3, 0.8, 1.8], "look_at": [0, 0.3, 0], "vertical_fov": 60},
         "film": {"size": [12, 9]},
         "integrator": {"type": "path", "max_depth": 3, "roulette": "off"},
         "materials": [{"name": "grey", "type": "diffuse", "albedo": 0.5}],
         "shapes": [{"type": "box", "size": [4, 4, 4], "material": "grey", "flip_normals": true,
                     "transform": {"translate": [0, 2, 0]}}],
-        "lights": [{"type": "disk", "radius": 1.5, "radiance": 3, "two_sided": true,
+        "lights": [{"type": "disk", "radius": 1, "radiance": 3, "two_sided": true,
                     "transform": [{"rotate": {"axis": [1, 0, 0], "angle": 90}}, {"translate": [0, 1.5, 0]}]}]
     })");
     for (const Device& device : test_devices())
