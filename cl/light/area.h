@@ -73,7 +73,8 @@ STATIC AreaPoint sphere_light_sample(Vec3 centre, Float radius, Vec3 from, bool 
     point.to_point = choose3(in_direction, near, anywhere);
     point.normal = choose3(in_direction, scale3(sub3(near, to_centre), 1.0 / radius), normal);
     Float by_area = area_to_solid_angle(anywhere, normal, 4.0 * PI * square(radius));
-    by_area = outside & (dot3(normal, anywhere) > 0.0) ? (Float)(0.0) : by_area;
+    Mask hidden = outside & (dot3(normal, anywhere) > 0.0);
+    by_area = hidden ? (Float)(0.0) : by_area;
     point.pdf = in_direction ? uniform_cone_pdf(one_minus_cos) : by_area;
     return point;
 }
@@ -84,7 +85,8 @@ STATIC Float sphere_light_pdf(Vec3 centre, Float radius, Vec3 from, Vec3 to_poin
     Vec3 to_centre = sub3(centre, from);
     Float sin2 = square(radius) / dot3(to_centre, to_centre);
     Float by_area = area_to_solid_angle(to_point, normal, 4.0 * PI * square(radius));
-    return (sin2 < 1.0) & to_mask(by_cone) ? uniform_cone_pdf(sphere_one_minus_cos(sin2)) : by_area;
+    Mask in_direction = (sin2 < 1.0) & to_mask(by_cone);
+    return in_direction ? uniform_cone_pdf(sphere_one_minus_cos(sin2)) : by_area;
 }
 
 STATIC bool spheres_by_cone(SceneView view)

@@ -10,7 +10,7 @@ using namespace etendue;
 TEST_CASE("large scenes are long checks and pass", "[check][render]")
 {
     const std::vector<Check> checks = large_scene_checks();
-    CHECK(checks.size() == 3);
+    CHECK(checks.size() == 4);
     for (const Device& device : test_devices()) {
         CheckContext context;
         context.device = &device;
