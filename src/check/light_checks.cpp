@@ -24,7 +24,7 @@ struct Resolution {
     std::size_t columns, rows;
     double samples;
 };
-constexpr Resolution FINE{64, 128, 1 << 22}, PLAIN{16, 32, 1 << 20}, COARSE{8, 8, 330000};
+constexpr Resolution FINE{64, 128, 1 << 22}, PLAIN{16, 16, 1 << 19}, COARSE{8, 8, 330000};
 // Of a sample's point, that its random numbers may be off by.
 constexpr double INVERSION_ROUNDINGS = 8;
 constexpr std::size_t BATCH = std::size_t{1} << 16; // what a cache holds

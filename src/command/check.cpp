@@ -60,7 +60,7 @@ CheckContext make_context(const CheckArguments& arguments)
     context.specialize = arguments.specialize == "on";
     context.delta = arguments.delta;
     context.seed = arguments.seed == "fresh" ? fresh_seed() : 0;
-    context.cache = arguments.no_cache ? KernelCache::none() : KernelCache::standard();
+    context.cache = (arguments.no_cache ? KernelCache::none() : KernelCache::standard()).remembering();
     context.stop = interrupted;
     return context;
 }

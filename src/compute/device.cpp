@@ -2,6 +2,7 @@
 #include "compute/device.h"
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -43,6 +44,16 @@ cl::Device restrict_threads(const cl::Device& device, const DeviceInfo& info, st
     cl::Device(device).createSubDevices(properties, &parts);
     return parts.at(0);
 }
+// One context for each whole device of the process, so that programs can be used again. It is never released: drivers
+// are unloaded in an order of their own.
+cl::Context shared_context(const cl::Device& device)
+{
+    static std::mutex mutex;
+    static auto& contexts = *new std::map<cl_device_id, cl::Context>;
+    const std::lock_guard lock(mutex);
+    const auto found = contexts.find(device());
+    return found != contexts.end() ? found->second : contexts.emplace(device(), cl::Context(device)).first->second;
+}
 } // namespace
 
 Device::Device(const DeviceInfo& info, std::uint32_t threads)
@@ -52,7 +63,8 @@ Device::Device(const DeviceInfo& info, std::uint32_t threads)
         handle_ = find_device(info);
         if (threads > 0) handle_ = restrict_threads(handle_, info, threads);
         compute_units_ = handle_.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-        context_ = cl::Context(handle_);
+        // A part of a device is no longer there when it is released.
+        context_ = threads > 0 ? cl::Context(handle_) : shared_context(handle_);
         queue_ = cl::CommandQueue(context_, handle_, CL_QUEUE_PROFILING_ENABLE);
     } catch (const cl::Error& e) {
         throw_device_error(info.name, e);

@@ -102,6 +102,18 @@ KernelCache KernelCache::standard()
     return none();
 }
 
+KernelCache KernelCache::remembering() const
+{
+    KernelCache cache = *this;
+    cache.programs_ = std::make_shared<Programs>();
+    return cache;
+}
+
+cl::Program* KernelCache::remembered(const Device& device, const std::string& key) const
+{
+    return programs_ ? &(*programs_)[{device.context()(), key}] : nullptr;
+}
+
 KernelCache KernelCache::cold()
 {
     static std::atomic<std::uint64_t> serial{0};
@@ -119,11 +131,19 @@ Program::Program(const Device& device, const std::string& name, const std::strin
     report_.options = all_build_options(device.info(), options);
     if (!cache.option().empty()) report_.options += ' ' + cache.option();
     report_.source_bytes = source.size();
-    if (cache.enabled()) cache_file_ = cache.folder() / (cache_key(device.info(), source, report_.options) + ".bin");
+    const std::string key = cache_key(device.info(), source, report_.options);
+    if (cache.enabled()) cache_file_ = cache.folder() / (key + ".bin");
 
     const Stopwatch stopwatch;
-    if (!cache_file_.empty()) program_ = build_cached(device, cache_file_, report_);
-    if (!report_.from_cache) program_ = build_source(device, source, report_);
+    cl::Program* const remembered = cache.remembered(device, key);
+    if (remembered && (*remembered)()) {
+        program_ = *remembered;
+        report_.remembered = true;
+    } else {
+        if (!cache_file_.empty()) program_ = build_cached(device, cache_file_, report_);
+        if (!report_.from_cache) program_ = build_source(device, source, report_);
+        if (remembered) *remembered = program_;
+    }
     report_.seconds = stopwatch.seconds();
     report_.log = build_log(program_, device);
 }
@@ -146,7 +166,7 @@ Program Program::from_text(const Device& device, const std::string& name, const 
 
 void Program::store_in_cache()
 {
-    if (cache_file_.empty() || report_.from_cache || report_.stored) return;
+    if (cache_file_.empty() || report_.from_cache || report_.remembered || report_.stored) return;
     try {
         const auto binaries = program_.getInfo<CL_PROGRAM_BINARIES>();
         if (binaries.empty() || binaries.front().empty()) return;

@@ -5,7 +5,10 @@
 #include "compute/kernel_source.h"
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
+#include <utility>
 
 namespace etendue
 {
@@ -26,14 +29,24 @@ public:
     // build before it had. For measuring what the first run on a machine costs.
     static KernelCache cold();
 
+    // The same cache, which also remembers the programs that it and its copies have built, as long as one of them
+    // lives: for many scenes one after the other. Not for several threads at once.
+    KernelCache remembering() const;
+
     bool enabled() const { return !folder_.empty(); }
     const std::filesystem::path& folder() const { return folder_; }
     const std::string& warning() const { return warning_; } // why it is switched off, or ""
     const std::string& option() const { return option_; }   // of every build; "" unless cold
 
+    // Where the program of this key is remembered, empty at first; null where nothing is.
+    cl::Program* remembered(const Device& device, const std::string& key) const;
+
 private:
+    using Programs = std::map<std::pair<cl_context, std::string>, cl::Program>;
+
     std::string warning_, option_;
     std::filesystem::path folder_;
+    std::shared_ptr<Programs> programs_;
 };
 
 struct BuildReport {
@@ -41,6 +54,7 @@ struct BuildReport {
     std::string options;
     std::string log;
     bool from_cache = false; // loaded from our own cache
+    bool remembered = false; // built before by this process
     bool stored = false;     // written to our own cache
     double seconds = 0.0;    // clBuildProgram, cold or from a binary
     std::size_t source_bytes = 0, binary_bytes = 0;

@@ -46,8 +46,11 @@ private:
 
 std::vector<CheckResult> run_check(const Check& check, const Device& device)
 {
+    // Never released: drivers are unloaded in an order of their own.
+    static const KernelCache& cache = *new KernelCache(KernelCache::none().remembering());
     CheckContext context;
     context.device = &device;
+    context.cache = cache;
     return check.run(context);
 }
 

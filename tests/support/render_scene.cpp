@@ -15,11 +15,12 @@ namespace etendue
 {
 namespace
 {
-// Compiled kernels of this run, for drivers that keep none themselves.
+// Compiled kernels of this run. Programs outlive what is released at its end: drivers are unloaded in an order of their
+// own.
 const KernelCache& run_cache()
 {
     static const TemporaryFolder folder;
-    static const KernelCache cache = KernelCache::at(folder.path());
+    static const KernelCache& cache = *new KernelCache(KernelCache::at(folder.path()).remembering());
     return cache;
 }
 

@@ -229,3 +229,27 @@ TEST_CASE("a cold build is unlike every build before it and leaves nothing")
     program.store_in_cache();
     CHECK_FALSE(program.report().stored);
 }
+
+TEST_CASE("a cache that remembers gives the same program again, for the same source, options and device")
+{
+    ProbeProgram probe;
+    for (const Device& device : test_devices()) {
+        probe.write_number(1);
+        const KernelCache cache = KernelCache::none().remembering();
+        const Program first(device, "probe.cl", "-DA", cache), again(device, "probe.cl", "-DA", KernelCache(cache));
+        CHECK_FALSE(first.report().remembered);
+        CHECK(again.report().remembered);
+        CHECK(again.handle()() == first.handle()());
+        CHECK(probed_number(again) == 1);
+        // Another device object of the same device, with the same context.
+        const Device same(device.info());
+        CHECK(Program(same, "probe.cl", "-DA", cache).report().remembered);
+        CHECK_FALSE(Program(device, "probe.cl", "-DB", cache).report().remembered);
+        CHECK_FALSE(Program(device, "probe.cl", "-DA", KernelCache::none()).report().remembered);
+        CHECK_FALSE(Program(device, "probe.cl", "-DA", KernelCache::none().remembering()).report().remembered);
+        probe.write_number(2);
+        const Program changed(device, "probe.cl", "-DA", cache);
+        CHECK_FALSE(changed.report().remembered);
+        CHECK(probed_number(changed) == 2);
+    }
+}
