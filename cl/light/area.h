@@ -1,4 +1,5 @@
-/* Emissive triangles, disks and spheres. Triangles and disks are sampled by area, spheres from outside by solid angle.
+/* Emissive triangles, disks and spheres. Triangles and disks are sampled by area, spheres from outside by solid angle
+ * unless the settings say otherwise.
  */
 #pragma once
 #include "light/light_sample.h"

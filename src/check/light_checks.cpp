@@ -123,7 +123,7 @@ Results check_density_integral(const CheckContext& context)
         violations.set_subject(c.name);
         violations.expect(met > DIRECTIONS / 50, "too few directions meet it");
         error.set_subject(c.name);
-        error.add(std::abs(integral - seen_share(c)));
+        error.add(std::abs(integral / seen_share(c) - 1));
     }
     return {error.result("light-density-integral", 4e-3, "relative"),
             violations.result("light-density-integral-directions")};
@@ -161,7 +161,8 @@ Results check_agreement(const CheckContext& context)
     return {violations.result("light-agreement", Rule::bound)};
 }
 
-// The two random numbers of a sample, in double: of triangles and disks by area, of spheres from outside by the cone.
+// The two random numbers of a sample, in double: of triangles and disks by area, of spheres from outside by the cone,
+// unless it is their whole area.
 // Turns are measured from a direction of its own. Numbers of a point that is not on the light are -1.
 std::array<double, 2> invert(const LightCase& c, const Point& to_light)
 {
@@ -233,7 +234,7 @@ Results check_inversion(const CheckContext& context)
             double across_error = found[1] - v;
             if (!is_triangle) {
                 // The light's own direction of turns, as the first sample that can tell has it.
-                if (!first_turn && v > 0.25) first_turn = found[0] - u;
+                if (!first_turn && v > 0.25 && v < 0.75) first_turn = found[0] - u;
                 across_error = std::remainder(found[0] - u - first_turn.value_or(0), 1.0);
                 if (!first_turn) continue;
             }

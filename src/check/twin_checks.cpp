@@ -53,11 +53,14 @@ constexpr double MAX_DIVERGENCE = 1e-3;
 // Shares of fewer pairs than these say too little.
 constexpr std::uint64_t MIN_PAIRS = 10000;
 
+// As long as a path without a limit is taken to be.
+constexpr std::uint32_t UNLIMITED_DEPTH = 64;
+
 // What float's own roundings may shift the mean by, relatively: some of them on a path and two at each vertex, all to
 // one side.
 double rounding_bias(const Scene& scene)
 {
-    return 0x1p-24 * (240.0 + 2.0 * scene.integrator.max_depth.value_or(0));
+    return 0x1p-24 * (240.0 + 2.0 * scene.integrator.max_depth.value_or(UNLIMITED_DEPTH));
 }
 
 // P(Z <= z) of the power that detectable biases are told for.
@@ -86,15 +89,14 @@ Pairs trace_pairs(const CheckContext& context, const Scene& scene, const Geometr
     const auto width = static_cast<std::uint64_t>(scene.film.width);
     const std::uint64_t pixels = width * static_cast<std::uint64_t>(scene.film.height);
     const auto count = static_cast<std::uint64_t>(std::ceil(sample_count * context.effort));
-    // Every pixel as often as another, or every so many-th pixel once.
-    const std::uint64_t stride = std::max<std::uint64_t>(1, pixels / count);
     Pairs pairs;
     for (std::uint64_t first = 0; first < count && !context.stop(); first += BATCH) {
         std::vector<ReplaySample> samples;
         for (std::uint64_t i = first; i < std::min(first + BATCH, count); ++i) {
-            const std::uint64_t pixel = i * stride % pixels;
+            // Pixel after pixel, or some of them.
+            const std::uint64_t pixel = count < pixels ? i * pixels / count : i % pixels;
             samples.push_back({static_cast<std::uint32_t>(pixel % width), static_cast<std::uint32_t>(pixel / width),
-                               i * stride / pixels});
+                               count < pixels ? 0 : i / pixels});
         }
         const auto a = single.replay(samples, max_vertices), b = twin.replay(samples, max_vertices);
         for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -181,7 +183,7 @@ std::vector<CheckResult> run_scene(const std::string& name, const SceneSource& s
     Scene scene = source.load().scene;
     scene.sampler.seed += context.seed;
     const bool lenient = scene.expectation && scene.expectation->lenient;
-    const double length = scene.integrator.max_depth.value_or(64) + 1.0;
+    const double length = scene.integrator.max_depth.value_or(UNLIMITED_DEPTH) + 1.0;
     const double samples = std::min(SCENE_SAMPLES, std::max(64.0, SCENE_VERTICES / length));
     const Pairs pairs = trace_pairs(context, scene, make_geometry(scene, {lenient}), samples, 1, context.specialize);
     if (pairs.difference.count() < 2) return {}; // stopped

@@ -6,6 +6,12 @@
 
 namespace etendue
 {
+namespace
+{
+// What the sums of a film may be off by, relatively: some roundings of a float.
+constexpr double ROUNDINGS = 16.0 * 0x1p-24;
+} // namespace
+
 FilmPixels pixels_of(const Film& film)
 {
     FilmPixels pixels;
@@ -80,8 +86,9 @@ double PixelPool::skewness_of_mean(const Pixels& variance_of_mean) const
     RunningStatistics skewness;
     for (std::size_t i = 0; i < pixels_.size(); ++i)
         for (int c = 0; c < 3; ++c) {
-            const double of_pixel = scale * cubes_[i][c] / std::pow(variance_of_mean[i][c], 1.5);
-            if (std::isfinite(of_pixel)) skewness.add(of_pixel);
+            const double error = std::sqrt(variance_of_mean[i][c]);
+            const double mean = pixels_[i][static_cast<std::size_t>(c)].mean;
+            if (error > ROUNDINGS * std::abs(mean)) skewness.add(scale * cubes_[i][c] / (error * error * error));
         }
     return skewness.mean();
 }

@@ -40,9 +40,10 @@ public:
     Pixels mean() const;
     // Of the mean, from the spread between the pictures; infinite for fewer than two.
     Pixels variance_of_mean() const;
-    // The skewness of the noise of a pixel's mean, on average over the pixels and channels that have any: the third
-    // cumulant over the 3/2 power of the variance. By the spread of eight pictures it is about half of what it should
-    // be. 0 for fewer than three pictures, and without noise.
+    // The skewness of the noise of a pixel's mean, on average over the pixels and channels that have more noise than
+    // rounding: the third cumulant over the 3/2 power of the variance. One number for the picture, since that of a
+    // pixel is hardly known. By the spread of eight pictures it is about half of what it should be. 0 for fewer than
+    // three pictures, and without noise.
     double skewness_of_mean() const { return skewness_of_mean(variance_of_mean()); }
     // The same where the variances of the means are known better than from the spread.
     double skewness_of_mean(const Pixels& variance_of_mean) const;

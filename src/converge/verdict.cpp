@@ -18,6 +18,8 @@ constexpr double ROUNDING = 0x1p-24;
 constexpr double ROUNDINGS = 16.0;
 // A test that sees a bias with this certainty counts as able to see it.
 constexpr double POWER = 0.99;
+// Fewer p-values are not compared with uniform ones.
+constexpr int FEWEST_TILES = 5;
 // Student's distribution is the normal one.
 constexpr double MANY_DEGREES = 1e6;
 
@@ -68,10 +70,10 @@ void judge_floor(BiasVerdict& verdict, const BiasEvidence& evidence, double delt
                         std::sqrt(FLOOR_POWER)));
 }
 
-// Whether more than a tenth of the tiles is.
+// Whether more than a tenth of the tiles with noise is.
 bool is_too_skewed(const WelchTiles& tiles)
 {
-    return 10 * tiles.too_skewed > tiles.p_values.size();
+    return 10 * tiles.too_skewed > tiles.p_values.size() - tiles.exact;
 }
 
 // Whether tiles see a bias.
@@ -145,10 +147,12 @@ bool judge_channel(BiasVerdict& verdict, const BiasEvidence& evidence, int chann
                             (variance * error);
     const double z = without_skewness((mean_of(means) - expected) / error, skewness);
     const double critical = student_t_quantile(1.0 - levels.test_alpha / 2, degrees);
-    const double detectable = (critical + student_t_quantile(POWER, degrees)) * error / std::abs(expected);
+    const double needed = with_skewness(critical, skewness);
+    const double detectable = (needed + student_t_quantile(POWER, degrees)) * error / std::abs(expected);
     const bool is_known = std::abs(skewness) <= LARGEST_SKEWNESS;
     const bool seen = is_known && !(std::abs(z) < critical);
     verdict.mean_passed = verdict.mean_passed && is_known && !seen;
+    if (!is_known && std::isfinite(verdict.z)) return false;
     if (!std::isfinite(verdict.z) || std::abs(z) / critical > std::abs(verdict.z) / verdict.critical) {
         verdict.z = z;
         verdict.critical = critical;
@@ -253,7 +257,7 @@ WelchTiles compare_tiles(const PixelPool& pool, const Reference& reference, int 
     // Larger tiles are less skewed.
     int edge = tile_edge(width, height);
     WelchTiles tiles = welch_test(a, b, width, height, edge, alpha);
-    while (is_too_skewed(tiles) && tiles.columns * tiles.rows > 1)
+    while (is_too_skewed(tiles) && (width / (2 * edge)) * (height / (2 * edge)) >= FEWEST_TILES)
         tiles = welch_test(a, b, width, height, edge *= 2, alpha);
     return tiles;
 }

@@ -82,6 +82,7 @@ BiasVerdict judge_bias(const BiasEvidence& evidence, const VerdictLevels& levels
 int tile_edge(int width, int height);
 
 // Welch's test of the pool against the reference, tile by tile; `alpha` is the level of all tiles together. Tiles are
-// larger than tile_edge() where the noise of more than a tenth of them is too skewed to be tested.
+// larger than tile_edge() where the noise of more than a tenth of them is too skewed to be tested, as long as there are
+// five of them.
 WelchTiles compare_tiles(const PixelPool& pool, const Reference& reference, int width, int height, double alpha = 1e-3);
 } // namespace etendue

@@ -143,6 +143,15 @@ double without_skewness(double t, double skewness_of_mean)
     return std::abs(symmetric) < std::abs(t) ? symmetric : t;
 }
 
+double with_skewness(double symmetric, double skewness_of_mean)
+{
+    const double s = std::abs(skewness_of_mean), a = s / 3.0;
+    if (s == 0.0) return symmetric;
+    // Hall's cubic is ((1 + a t)^3 - 1) / (3 a) + s / 6.
+    const double t = (std::cbrt(1.0 - 3.0 * a * (symmetric + s / 6.0)) - 1.0) / a;
+    return std::max(symmetric, -t);
+}
+
 double gamma_q(double a, double x)
 {
     if (x <= 0.0) return 1.0;

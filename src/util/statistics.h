@@ -44,9 +44,11 @@ double student_t_quantile(double p, double degrees);
 // Student's t of a mean whose noise has this skewness, as if it had none, where that makes it smaller: the mean and its
 // error are not independent then, and t has one long tail. Hall: On the Removal of Skewness by Transformation, JRSS B
 // 54 (1992). Of sums of rare values |t| > 4 comes 40 times as often as for normal ones at skewness 0.2, and with this
-// not more often up to LARGEST_SKEWNESS, beyond which t means nothing (measured).
-constexpr double LARGEST_SKEWNESS = 0.25;
+// not more often; from 0.4 on it means nothing (measured). At LARGEST_SKEWNESS it takes |t| = 8 to be as good as 5.
+constexpr double LARGEST_SKEWNESS = 0.15;
 double without_skewness(double t, double skewness_of_mean);
+// The |t| that is `symmetric` > 0 without the skewness, on the side where it takes more.
+double with_skewness(double symmetric, double skewness_of_mean);
 
 // Regularised upper incomplete gamma function Q(a, x), a > 0, x >= 0 (DLMF 8.2.4).
 double gamma_q(double a, double x);

@@ -103,6 +103,33 @@ TEST_CASE("a bias of a single tile is found", "[converge]")
     CHECK(verdict.worst_tile_z > 10.0);
 }
 
+TEST_CASE("skewed noise is judged in larger tiles, or not at all", "[converge]")
+{
+    SyntheticOptions options;
+    options.reference_samples = 4096.0;
+    const auto verdict_with = [&](double skewness, double bias) {
+        options.bias = bias;
+        Study study = synthetic_study(options, 7);
+        auto skewed = std::make_shared<Reference>(*study.configurations[0].reference);
+        skewed->skewness = skewness;
+        study.configurations[0].reference = skewed;
+        return analyse(study).configurations[0].verdict;
+    };
+    const BiasVerdict plain = verdict_with(0.0, 0.0), larger = verdict_with(2.6, 0.0), never = verdict_with(60.0, 0.0);
+    CHECK(plain.tile == 2);
+    CHECK(plain.result == BiasResult::unbiased);
+    CHECK(larger.tile == 4);
+    CHECK(larger.tiles_passed);
+    CHECK(larger.result == BiasResult::unbiased);
+    CHECK(larger.detectable_bias > plain.detectable_bias);
+    CHECK(never.result == BiasResult::underpowered);
+    CHECK_FALSE(never.tiles_passed);
+    CHECK_FALSE(never.mean_passed);
+    CHECK_THAT(never.reasons.front() + never.reasons.back(), Contains("too skewed"));
+    // A bias is found all the same.
+    CHECK(verdict_with(2.6, 0.05).result == BiasResult::biased);
+}
+
 TEST_CASE("a difference from a picture of unknown error is no bias, and no proof of none", "[converge]")
 {
     SyntheticOptions options;

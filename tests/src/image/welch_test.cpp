@@ -138,9 +138,9 @@ TEST_CASE("a bias everywhere, too small for any tile, makes too many p-values sm
 
 TEST_CASE("skewed noise is not taken for a difference, and does not hide one", "[image][welch]")
 {
-    // Each pixel is the sum of about 112 rare samples of exponential size; t of one has P(t < -5) = 1.5e-4.
-    constexpr double SEEN = 112.5, SKEWNESS = 0.2;
-    constexpr int TILES = 64;
+    // Each pixel is the sum of about 220 rare samples of exponential size; t of one has P(t < -5) = 5e-5.
+    constexpr double SEEN = 220.0, SKEWNESS = 0.143;
+    constexpr int TILES = 1024;
     std::mt19937 random(11);
     std::poisson_distribution<int> seen(SEEN);
     std::exponential_distribution<double> size(1.0);
@@ -166,13 +166,14 @@ TEST_CASE("skewed noise is not taken for a difference, and does not hide one", "
     const auto alarms = [&](double bias, double skewness) {
         int count = 0;
         for (int i = 0; i < 50; ++i) {
-            const WelchTiles tiles = welch_test(picture(bias, skewness), truth, TILES, 1, 1, 1e-3);
-            count += tiles.excess_p_value < 1e-3 || tiles.below_alpha > 0;
+            const WelchTiles tiles = welch_test(picture(bias, skewness), truth, TILES, 1, 1, 1e-2);
+            count += tiles.excess_p_value < 1e-2 || tiles.below_alpha > 0;
         }
         return count;
     };
-    CHECK(alarms(0.0, 0.0) > 5);
-    CHECK(alarms(0.0, SKEWNESS) <= 1);
+    // Expected is one.
+    CHECK(alarms(0.0, 0.0) > 8);
+    CHECK(alarms(0.0, SKEWNESS) <= 4);
     CHECK(alarms(0.5, SKEWNESS) == 50);
     CHECK(alarms(0.5, -SKEWNESS) == 50);
 }
@@ -181,7 +182,7 @@ TEST_CASE("noise that is too skewed is not tested, and counted", "[image][welch]
 {
     const std::vector<PixelMoments> truth(16, {Vec3(1.0), Vec3(0.0), 0});
     // Of tiles of four pixels a half.
-    const std::vector<PixelMoments> pixels(16, {Vec3(9.0), Vec3(0.01), 1000, 0.4});
+    const std::vector<PixelMoments> pixels(16, {Vec3(9.0), Vec3(0.01), 1000, 0.2});
     const WelchTiles single = welch_test(pixels, truth, 4, 4, 1), quads = welch_test(pixels, truth, 4, 4, 2);
     CHECK(single.too_skewed == 48);
     CHECK(single.untested == 48);

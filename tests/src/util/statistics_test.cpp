@@ -193,3 +193,16 @@ TEST_CASE("skewness makes nothing more significant, and none changes nothing")
     CHECK(std::abs(without_skewness(-5.0, 0.3)) < 4.0);
     CHECK(without_skewness(5.0, 0.3) == 5.0);
 }
+
+TEST_CASE("what skewness takes from t is what it takes more")
+{
+    for (const double skewness : {-LARGEST_SKEWNESS, -0.05, 0.0, 0.01, 0.1, LARGEST_SKEWNESS})
+        for (const double symmetric : {0.5, 2.0, 3.9, 5.0, 6.0}) {
+            CAPTURE(skewness, symmetric);
+            const double t = with_skewness(symmetric, skewness);
+            CHECK(t >= symmetric);
+            CHECK(std::abs(without_skewness(skewness > 0.0 ? -t : t, skewness)) == Approx(symmetric));
+        }
+    CHECK(with_skewness(5.0, LARGEST_SKEWNESS) > 7.0);
+    CHECK(with_skewness(5.0, LARGEST_SKEWNESS) < 8.5);
+}
