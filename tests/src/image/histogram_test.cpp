@@ -2,11 +2,12 @@
 #include "image/histogram.h"
 
 #include "image/plot.h"
+#include "support/pattern.h"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace
 std::vector<double> bar_heights(const std::string& svg)
 {
     std::vector<double> heights;
-    const std::regex bar("plot-bar[^>]* height=\"([0-9.]+)\"");
-    for (std::sregex_iterator i(svg.begin(), svg.end(), bar), end; i != end; ++i) heights.push_back(std::stod((*i)[1]));
+    for (const std::string& height : matches(svg, "plot-bar[^>]* height=\"([0-9.]+)\"", 1))
+        heights.push_back(std::stod(height));
     return heights;
 }
 } // namespace
@@ -40,14 +41,13 @@ TEST_CASE("uniform values stand within the band of chance, others do not", "[ima
 {
     const auto band_and_bars = [](const std::vector<double>& values) {
         const std::string svg = p_value_histogram_svg(values, 10);
-        const std::regex band("plot-floor\"[^>]* y=\"([0-9.]+)\"");
-        std::smatch match;
-        REQUIRE(std::regex_search(svg, match, band));
-        const std::regex bar("plot-bar[^>]* y=\"([0-9.]+)\"");
+        const auto bands = matches(svg, "plot-floor\"[^>]* y=\"([0-9.]+)\"", 1);
+        const auto bars = matches(svg, "plot-bar[^>]* y=\"([0-9.]+)\"", 1);
+        REQUIRE(!bands.empty());
+        REQUIRE(!bars.empty());
         double highest = 1e9;
-        for (std::sregex_iterator i(svg.begin(), svg.end(), bar), end; i != end; ++i)
-            highest = std::min(highest, std::stod((*i)[1]));
-        return std::pair(std::stod(match[1]), highest);
+        for (const std::string& top : bars) highest = std::min(highest, std::stod(top));
+        return std::pair(std::stod(bands[0]), highest);
     };
     std::vector<double> uniform, small;
     for (int i = 0; i < 1000; ++i) {

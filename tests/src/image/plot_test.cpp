@@ -2,6 +2,7 @@
 #include "image/plot.h"
 
 #include "image/plot_axis.h"
+#include "support/pattern.h"
 #include "util/error.h"
 #include "util/file.h"
 
@@ -9,7 +10,7 @@
 
 #include <cmath>
 #include <filesystem>
-#include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,8 @@ using Points = std::vector<std::pair<double, double>>;
 std::vector<Points> points_of(const std::string& svg, const std::string& css_class)
 {
     std::vector<Points> found;
-    const std::regex element("<\\w+ class=\"" + css_class + "[^>]*points=\"([^\"]*)\"");
-    for (std::sregex_iterator i(svg.begin(), svg.end(), element), end; i != end; ++i) {
+    for (std::string text : matches(svg, "<\\w+ class=\"" + css_class + "[^>]*points=\"([^\"]*)\"", 1)) {
         Points points;
-        std::string text = (*i)[1];
         for (char& c : text)
             if (c == ',') c = ' ';
         std::istringstream stream(text);
@@ -39,10 +38,10 @@ std::vector<Points> points_of(const std::string& svg, const std::string& css_cla
 
 double attribute(const std::string& svg, const std::string& css_class, const std::string& name)
 {
-    const std::regex element("<\\w+ (?=[^>]*class=\"" + css_class + "\")[^>]*\\b" + name + "=\"([-0-9.]+)\"");
-    std::smatch match;
-    REQUIRE(std::regex_search(svg, match, element));
-    return std::stod(match[1]);
+    const auto values =
+        matches(svg, "<\\w+ (?=[^>]*class=\"" + css_class + "\")[^>]*\\b" + name + "=\"([-0-9.]+)\"", 1);
+    REQUIRE(!values.empty());
+    return std::stod(values[0]);
 }
 
 std::size_t count(const std::string& text, const std::string& part)
@@ -116,10 +115,12 @@ TEST_CASE("data, bands, guides and the grey zone stay within the axes, and the l
     // Every entry of the legend is below the axes, and no wider than the picture.
     const std::string legend = svg.substr(svg.find("plot-legend"));
     CHECK(count(legend, "<text") == 7);
-    const std::regex place("class=\"plot-name\" x=\"([0-9.]+)\" y=\"([0-9.]+)\"");
-    for (std::sregex_iterator i(legend.begin(), legend.end(), place), end; i != end; ++i) {
-        CHECK(std::stod((*i)[2]) > bottom + 30);
-        CHECK(std::stod((*i)[1]) < 700);
+    const std::string place = "class=\"plot-name\" x=\"([0-9.]+)\" y=\"([0-9.]+)\"";
+    const auto x = matches(legend, place, 1), y = matches(legend, place, 2);
+    REQUIRE(x.size() == 7);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        CHECK(std::stod(y[i]) > bottom + 30);
+        CHECK(std::stod(x[i]) < 700);
     }
 }
 

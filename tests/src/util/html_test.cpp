@@ -3,11 +3,11 @@
 
 #include "support/browser.h"
 #include "support/child_process.h"
+#include "support/pattern.h"
 #include "util/file.h"
 
 #include <catch2/catch.hpp>
 
-#include <regex>
 #include <string>
 
 #include <fmt/format.h>
@@ -90,12 +90,10 @@ TEST_CASE("data URIs are base64 (RFC 4648, section 10)", "[util][html]")
 TEST_CASE("a page needs nothing but itself", "[util][html]")
 {
     const std::string page = html_page("title", everything());
-    const std::regex resource("<[^<>]*\\b(src|href)=\"([^\"]*)\"");
-    int resources = 0;
-    for (std::sregex_iterator i(page.begin(), page.end(), resource), end; i != end; ++i, ++resources)
-        CHECK((*i)[2].str().starts_with("data:"));
+    const auto resources = matches(page, "<[^<>]*\\b(src|href)=\"([^\"]*)\"", 2);
+    for (const std::string& resource : resources) CHECK(resource.starts_with("data:"));
     CHECK_THAT(page, !Contains("url(") && !Contains("@import"));
-    CHECK(resources >= 5);
+    CHECK(resources.size() >= 5);
     CHECK_THAT(page, !Contains("<?xml"));
 }
 
