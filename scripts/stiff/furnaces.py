@@ -109,7 +109,7 @@ def dark_surfaces():
                      [diffuse("floor", albedo)], [shape], environment=sky)
 
     because = "A floor of albedo a under a sky of radiance 1 has radiance a; the least probability of survival is 1/64."
-    yield "P2-albedo-1e-6", floor(expect(because, mean("float(1e-6)", 0.02), group="stiff"), 1e-6, 512)
+    yield "P2-albedo-1e-6", floor(expect(because, mean("float(1e-6)", 0.02), group="stiff"), 1e-6, 1024)
     yield "P2-albedo-0", floor(expect("A black floor sends nothing.", pixels(0, rule="exact"), group="stiff"), 0, 4)
 
 

@@ -39,7 +39,7 @@ def slabs():
     where = {"n": 1.5, "R": "((n-1)/(n+1))^2"}
     for name, value, move, spp, delta in (
             ("transmits", "(1-R)/(1+R)", {"translate": [0, 0, -2]}, 32, None),
-            ("reflects", "2*R/(1+R)", [turned([0, 1, 0], 180), {"translate": [0, 0, 6]}], 96, 0.02)):
+            ("reflects", "2*R/(1+R)", [turned([0, 1, 0], 180), {"translate": [0, 0, 6]}], 192, 0.02)):
         because = "A slab at normal incidence with all its inner reflections: T = (1-R)/(1+R) = 12/13, the rest returns, 1/13."
         yield f"F9-{name}", scene(expect(because, mean(value, delta), where), look_at_point([0, 0, 5], [0, 0, 0]), integrator("path", 64), spp,
                                   [glass("glass", 1.5)], [slab], [{**disk, "transform": move}])

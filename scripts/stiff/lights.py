@@ -51,7 +51,7 @@ def closed_forms():
             block = expect(because, mean("rho*L*F", delta_of(kind)), where)
             yield f"L0-sphere-{theta}-{kind}", lit_floor(block, kind, 128, [light], **far)
             if kind in ("light", "path"):
-                by_area = lit_floor(expect(because, mean("rho*L*F", 0.02), where), kind, 128, [light], **far)
+                by_area = lit_floor(expect(because, mean("rho*L*F", 0.02), where), kind, 256, [light], **far)
                 by_area["integrator"].update(sphere_lights="area", **({"heuristic": "balance"} if kind == "path" else {}))
                 yield f"L0-sphere-{theta}-{kind}-by-area", by_area
     where = {**FULL, "A": "0.7/0.9", "B": "1.3/0.9", "F": PARALLEL, "S": "float(0.7)"}
@@ -197,7 +197,7 @@ def quadrants():
             for sign_z in (-1, 1):
                 light = rectangle([0.9, 1.2], facing_down(0.55 * sign_x, 0.8, 0.7 * sign_z))
                 name = f"L8-{'-+'[sign_x > 0]}x{'-+'[sign_z > 0]}z-{kind}"
-                yield name, lit_floor(expect(because, mean("rho*L*F", delta_of(kind)), where), kind, 96, [light],
+                yield name, lit_floor(expect(because, mean("rho*L*F", delta_of(kind)), where), kind, 160, [light],
                                       size=10, camera=(3, 0.2, 0.1))
 
 
