@@ -93,9 +93,9 @@ def roulette():
         for name, albedo in (("colours", [0.9, 0.5, 0.2]), ("dark", [0.01, 0.005, 0])):
             where = {n: f"float({v})" for n, v in zip("abc", albedo)}
             block = expect("Whatever ends a path, the mean of each channel is 1/(1-a).",
-                           mean([f"1/(1-{n})" for n in "abc"], 0.01), where)
+                           mean([f"1/(1-{n})" for n in "abc"]), where)
             rule = {"type": "throughput", "start": start}
-            yield f"F3-{name}-start-{start}", room(block, view(128), integrator("bsdf", "unlimited", rule), 64, albedo)
+            yield f"F3-{name}-start-{start}", room(block, view(128), integrator("bsdf", "unlimited", rule), 192, albedo)
 
 
 def dark_surfaces():

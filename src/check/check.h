@@ -50,15 +50,17 @@ struct CheckResult {
 // A scene's own seed on top of it stays one that `etendue replay` takes.
 inline constexpr std::uint64_t MAX_CHECK_SEED = ~std::uint64_t{0} >> 2;
 
+inline constexpr double DEFAULT_DELTA = 0.005;
+
 // What every check gets.
 struct CheckContext {
     const Device* device = nullptr;
-    std::uint32_t lanes = 0;  // 0: as suits the device
-    bool specialize = false;  // scenes by their own kernels, not by the general one
-    double test_alpha = 2e-6; // two-sided level of one statistical test: the family's level after Sidak
-    double delta = 0.005;     // relative bias that a statistical test must be able to see
-    std::uint64_t seed = 0;   // added to the seeds of everything random; at most MAX_CHECK_SEED
-    double effort = 1.0;      // multiplies the number of samples; 16 when a failure is tried again
+    std::uint32_t lanes = 0;      // 0: as suits the device
+    bool specialize = false;      // scenes by their own kernels, not by the general one
+    double test_alpha = 2e-6;     // two-sided level of one statistical test: the family's level after Sidak
+    double delta = DEFAULT_DELTA; // relative bias that a statistical test must be able to see
+    std::uint64_t seed = 0;       // added to the seeds of everything random; at most MAX_CHECK_SEED
+    double effort = 1.0;          // multiplies the number of samples; 16 when a failure is tried again
     KernelCache cache;
     std::function<bool()> stop = [] { return false; };
 };

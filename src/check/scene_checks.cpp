@@ -7,6 +7,7 @@
 #include "util/stopwatch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace etendue
@@ -14,6 +15,8 @@ namespace etendue
 namespace
 {
 using Subject = ExpectedFact::Subject;
+
+constexpr double MOST_FINE_EFFORT = 16.0;
 
 struct SceneFacts {
     SceneSource source;
@@ -124,6 +127,17 @@ std::vector<CheckResult> run_scene(const SceneFacts& scene, const CheckContext& 
     return results;
 }
 
+std::vector<CheckResult> run_scene_finely(SceneFacts scene, CheckContext context)
+{
+    double widest = context.delta;
+    for (const Fact& fact : scene.facts) widest = std::max(widest, *fact.delta);
+    // The error falls with the root of the number of samples.
+    const double effort = std::min(std::ceil(std::pow(widest / context.delta, 2.0)), MOST_FINE_EFFORT);
+    context.effort *= effort;
+    for (Fact& fact : scene.facts) fact.delta = std::max(context.delta, *fact.delta / std::sqrt(effort));
+    return run_scene(scene, context);
+}
+
 // The errors of Sobol's and stratified samples are known to a few degrees of freedom only, which no fact of the film's
 // variance allows for.
 void refuse_unknown_errors(const SceneFacts& scene)
@@ -136,32 +150,59 @@ void refuse_unknown_errors(const SceneFacts& scene)
         throw SceneError(scene.source.file + ": a fact with the rule \"stat\", or about variance or moments, needs "
                                              "independent samples: \"sampler\": {\"type\": \"independent\"}.");
 }
-} // namespace
 
-std::optional<Check> scene_check(const SceneSource& source)
+// Nothing where the scene expects nothing.
+std::optional<SceneFacts> load_facts(const SceneSource& source)
 {
     SceneFacts scene{source, source.load(), {}, {}};
     if (!scene.loaded.scene.expectation) return {};
     const Formulas formulas(scene.expectation().where);
+    for (const ExpectedFact& text : scene.expectation().facts) scene.facts.push_back(make_fact(text, formulas));
+    refuse_unknown_errors(scene);
+    return scene;
+}
+
+// A check of these facts that has yet to be told how it runs.
+Check check_of(SceneFacts& scene, const std::string& name)
+{
     Check check;
     check.group = group_name(scene.expectation().group);
-    check.name = source.name;
-    check.is_long = scene.expectation().is_long;
-    for (const ExpectedFact& text : scene.expectation().facts) {
-        scene.facts.push_back(make_fact(text, formulas));
-        check.statistical_tests += scene.facts.back().statistical_tests();
-    }
-    refuse_unknown_errors(scene);
-    scene.names = result_names(source.name, scene.facts);
-    check.run = [scene = std::move(scene)](const CheckContext& context) { return run_scene(scene, context); };
+    check.name = name;
+    for (const Fact& fact : scene.facts) check.statistical_tests += fact.statistical_tests();
+    scene.names = result_names(name, scene.facts);
+    return check;
+}
+} // namespace
+
+std::optional<Check> scene_check(const SceneSource& source)
+{
+    std::optional<SceneFacts> scene = load_facts(source);
+    if (!scene) return {};
+    Check check = check_of(*scene, source.name);
+    check.is_long = scene->expectation().is_long;
+    check.run = [scene = std::move(*scene)](const CheckContext& context) { return run_scene(scene, context); };
+    return check;
+}
+
+std::optional<Check> fine_scene_check(const SceneSource& source)
+{
+    std::optional<SceneFacts> scene = load_facts(source);
+    if (!scene) return {};
+    std::erase_if(scene->facts, [](const Fact& fact) { return fact.delta.value_or(0.0) <= DEFAULT_DELTA; });
+    if (scene->facts.empty()) return {};
+    Check check = check_of(*scene, source.name + "-finely");
+    check.is_long = true;
+    check.run = [scene = std::move(*scene)](const CheckContext& context) { return run_scene_finely(scene, context); };
     return check;
 }
 
 std::vector<Check> scene_checks(const std::vector<SceneSource>& sources)
 {
     std::vector<Check> checks;
-    for (const SceneSource& source : sources)
+    for (const SceneSource& source : sources) {
         if (std::optional<Check> check = scene_check(source)) checks.push_back(std::move(*check));
+        if (std::optional<Check> check = fine_scene_check(source)) checks.push_back(std::move(*check));
+    }
     return checks;
 }
 } // namespace etendue

@@ -40,8 +40,10 @@ Property value_property(const char* text)
 
 Property delta_property()
 {
-    return formula_property("delta", OPTIONAL,
-                            "the relative bias that the test must be able to see; without it that of --delta");
+    return formula_property(
+        "delta", OPTIONAL,
+        "the relative bias that the test must be able to see; without it that of --delta; above 0.005 there is "
+        "a second check with up to 16 times the samples, NAME-finely, with --long");
 }
 
 Property overrides_property(const char* text)

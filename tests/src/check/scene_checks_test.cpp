@@ -110,6 +110,64 @@ TEST_CASE("statistical facts are counted for the family", "[host]")
     CHECK(check.is_long);
 }
 
+TEST_CASE("facts that ask for little power are judged finely by a long check", "[render]")
+{
+    SceneFolder folder;
+    folder.add("scene.json", room(R"({"subject": "mean", "value": 4, "delta": 0.05}, {"subject": "mean", "value": 4},
+        {"subject": "pixels", "value": 4}, {"subject": "mean", "value": 4.001, "delta": 0.01})"));
+    folder.add("strict.json",
+               room(R"({"subject": "mean", "value": 4, "delta": 0.005}, {"subject": "mean", "value": 4})"));
+    const std::vector<Check> checks = scene_checks(scenes_at(folder.path()));
+    REQUIRE(checks.size() == 3);
+    CHECK_FALSE(checks[0].is_long);
+    CHECK(checks[0].statistical_tests == 3);
+    CHECK(checks[1].is_long);
+    CHECK(checks[1].name == "scene-finely");
+    CHECK(checks[1].statistical_tests == 2);
+    CHECK(checks[2].name == "strict");
+
+    CheckContext context;
+    context.device = &test_devices().front();
+    const std::vector<CheckResult> results = checks[1].run(context);
+    REQUIRE(results.size() == 2);
+    CHECK(results[0].name == "scene-finely");
+    CHECK(results[0].verdict == Verdict::passed);
+    CHECK(results[1].name == "scene-finely/mean-2");
+    CHECK(results[1].verdict == Verdict::failed);
+}
+
+TEST_CASE("a fine check has the samples that its power needs, up to 16 times as many", "[render]")
+{
+    // Roulette by throughput: the number of a path's vertices is geometric.
+    SceneFolder folder;
+    std::string text = room(R"({"subject": "mean", "value": 2, "delta": DELTA})");
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        text.replace(text.find(from), from.size(), to);
+    };
+    replace("\"albedo\": 1", "\"albedo\": 0.5");
+    replace("\"max_depth\": 3, \"roulette\": \"off\"",
+            R"("max_depth": "unlimited", "roulette": {"type": "throughput", "start": 0})");
+    replace("[4, 4]", "[16, 16]");
+    replace("\"spp\": 2", "\"spp\": 128");
+    const auto gain = [&](const std::string& delta, double wanted) {
+        std::string scene = text;
+        scene.replace(scene.find("DELTA"), 5, delta);
+        folder.add("scene.json", scene);
+        CheckContext context;
+        context.device = &test_devices().front();
+        context.delta = wanted;
+        const SceneSource source = scenes_at(folder.path() + "/scene.json").front();
+        const CheckResult plain = scene_check(source).value().run(context).front();
+        const CheckResult fine = fine_scene_check(source).value().run(context).front();
+        CHECK(plain.verdict == Verdict::passed);
+        CHECK(fine.verdict == Verdict::passed);
+        return plain.detectable_bias / fine.detectable_bias;
+    };
+    CHECK(gain("0.05", 0.025) == Approx(2).epsilon(0.02));
+    CHECK(gain("0.04", 0.005) == Approx(4).epsilon(0.02));
+    CHECK(gain("0.05", 0.05) == Approx(1));
+}
+
 TEST_CASE("a scene is compared with itself rendered otherwise and with its neighbour", "[render]")
 {
     SceneFolder folder;
