@@ -2,6 +2,7 @@
 #include "check/device_checks.h"
 #include "check/device_functions.h"
 #include "check/findings.h"
+#include "math/rounding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,6 @@ namespace
 {
 using Results = std::vector<CheckResult>;
 
-constexpr double ROUNDOFF = 0x1p-24;
 // Half an ulp is what correct rounding leaves; the reference itself is rounded to double precision.
 constexpr double CORRECTLY_ROUNDED = 0.5 + 1e-6;
 // OpenCL 1.2, table 7.2, where a device does not promise correct rounding.
@@ -138,7 +138,8 @@ Results check_turns(const CheckContext& context)
     WorstError error;
     for (std::size_t i = 0; i < t.size(); ++i) {
         const double angle = 2 * std::numbers::pi * t[i];
-        error.add(std::max(std::abs(sine[i] - std::sin(angle)), std::abs(cosine[i] - std::cos(angle))) / ROUNDOFF);
+        error.add(std::max(std::abs(sine[i] - std::sin(angle)), std::abs(cosine[i] - std::cos(angle))) /
+                  FLOAT_ROUNDING);
     }
     return {error.result("device-sin-cos", 2, "u")};
 }
@@ -155,7 +156,7 @@ Results check_logarithm(const CheckContext& context)
     const auto found = functions().evaluate<float>(*context.device, "log", {x}, context.lanes);
     WorstError relative, near_one;
     for (std::size_t i = 0; i < x.size(); ++i) {
-        const double exact = std::log(double{x[i]}), error = std::abs(found[i] - exact) / ROUNDOFF;
+        const double exact = std::log(double{x[i]}), error = std::abs(found[i] - exact) / FLOAT_ROUNDING;
         if (std::abs(exact) < 0.5)
             near_one.add(error);
         else

@@ -5,6 +5,7 @@
 #include "check/bsdf_suite.h"
 #include "check/equal_mass_bins.h"
 #include "check/findings.h"
+#include "math/rounding.h"
 #include "scene/material_parser.h"
 #include "util/statistics.h"
 
@@ -21,7 +22,6 @@ namespace etendue
 namespace
 {
 constexpr double PI = std::numbers::pi;
-constexpr double ROUNDOFF = 0x1p-24;
 constexpr uint LAST = 0xffffffffu;
 // Of the histograms.
 constexpr std::size_t BINS = 64 * 128;
@@ -90,12 +90,12 @@ Results check_weights(const CheckContext& context, const std::string& name, cons
             for (std::size_t i = 0; i < samples.size(); ++i) {
                 const double pdf = evaluation.pdf[i], cosine = std::abs(wi[i][2]);
                 violations.expect(pdf > 0, "without density");
-                violations.expect(relatively_equal(samples[i].pdf, pdf, 64 * ROUNDOFF), "density of the sample");
-                violations.expect(std::abs(length(wi[i]) - 1) <= 8 * ROUNDOFF, "not of unit length");
+                violations.expect(relatively_equal(samples[i].pdf, pdf, 64 * FLOAT_ROUNDING), "density of the sample");
+                violations.expect(std::abs(length(wi[i]) - 1) <= 8 * FLOAT_ROUNDING, "not of unit length");
                 for (std::size_t k = 0; k < 3; ++k) {
                     const double weight = evaluation.f[i][k] * cosine / pdf;
-                    violations.expect(relatively_equal(samples[i].weight[k], weight, 64 * ROUNDOFF), "weight");
-                    violations.expect(samples[i].weight[k] >= 0 && samples[i].weight[k] <= 1 + 64 * ROUNDOFF,
+                    violations.expect(relatively_equal(samples[i].weight[k], weight, 64 * FLOAT_ROUNDING), "weight");
+                    violations.expect(samples[i].weight[k] >= 0 && samples[i].weight[k] <= 1 + 64 * FLOAT_ROUNDING,
                                       "weight out of [0, 1]");
                 }
             }
@@ -135,9 +135,9 @@ Results check_inversion(const CheckContext& context, const std::string& name, co
             for (std::size_t i = 0; i < count; ++i) {
                 violations.expect(numbers[i][0] >= 0 && numbers[i][1] >= 0, "no inverse");
                 for (std::size_t j = 0; j < 2; ++j) {
-                    const double given = (random[i][j] >> 8) * ROUNDOFF;
+                    const double given = (random[i][j] >> 8) * FLOAT_ROUNDING;
                     const double error = std::abs(std::remainder(numbers[i][j] - given, 1.0));
-                    worst.add(error / (ROUNDINGS * (ROUNDOFF + conditions[i][j])));
+                    worst.add(error / (ROUNDINGS * (FLOAT_ROUNDING + conditions[i][j])));
                 }
             }
         }
@@ -305,7 +305,7 @@ Results check_edges(const CheckContext& context, const std::string& name, const 
                 if (!(s.pdf > 0)) continue;
                 for (const float w : s.weight) {
                     violations.expect(std::isfinite(w) && w >= 0, "weight not finite or negative");
-                    violations.expect(w <= s.radiance_scale * (1 + 64 * ROUNDOFF), "weight above 1");
+                    violations.expect(w <= s.radiance_scale * (1 + 64 * FLOAT_ROUNDING), "weight above 1");
                 }
             }
             const DeviceBsdf::Evaluation evaluation = on_device.evaluate({wo}, directions);
@@ -339,10 +339,10 @@ Results check_delta(const CheckContext& context, const std::string& name, const 
             double energy[3] = {0, 0, 0};
             for (const auto& s : samples) {
                 violations.expect(s.delta && s.pdf == 1, "not a delta sample");
-                violations.expect(std::abs(length(s.wi) - 1) <= 16 * ROUNDOFF, "not of unit length");
+                violations.expect(std::abs(length(s.wi) - 1) <= 16 * FLOAT_ROUNDING, "not of unit length");
                 for (std::size_t k = 0; k < 3; ++k) energy[k] += s.weight[k] / s.radiance_scale / LOBES;
             }
-            for (const double e : energy) violations.expect(e <= 1 + 64 * ROUNDOFF, "energy above 1");
+            for (const double e : energy) violations.expect(e <= 1 + 64 * FLOAT_ROUNDING, "energy above 1");
             const DeviceBsdf::Evaluation evaluation = on_device.evaluate({wo}, wi);
             for (std::size_t i = 0; i < wi.size(); ++i)
                 violations.expect(evaluation.pdf[i] == 0 && evaluation.f[i] == std::array<float, 3>{0, 0, 0},

@@ -4,6 +4,7 @@
 #include "check/findings.h"
 #include "check/light_cases.h"
 #include "check/random_words.h"
+#include "math/rounding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -208,10 +209,10 @@ double relative_rounding(const LightCase& c)
     if (p.a.s[3] == PRIMITIVE_TRIANGLE) {
         const Point e1 = point_of(p.b) - a, e2 = point_of(p.c) - a;
         const double longest = std::max(length(e1), length(e2));
-        return 0x1p-24 * (distance + longest) * longest / length(cross(e1, e2));
+        return FLOAT_ROUNDING * (distance + longest) * longest / length(cross(e1, e2));
     }
     const double radius = p.a.s[3] == PRIMITIVE_DISK ? p.c.s[0] : p.b.s[0];
-    return 0x1p-24 * (distance + radius) / radius;
+    return FLOAT_ROUNDING * (distance + radius) / radius;
 }
 
 // The random numbers that a sample was made of are found again from its point.

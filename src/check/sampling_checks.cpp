@@ -5,6 +5,7 @@
 #include "check/findings.h"
 #include "check/philox_reference.h"
 #include "geometry/distribution.h"
+#include "math/rounding.h"
 
 #include <algorithm>
 #include <bit>
@@ -22,7 +23,6 @@ namespace
 using Results = std::vector<CheckResult>;
 using Words = std::vector<std::uint32_t>;
 
-constexpr double ROUNDOFF = 0x1p-24;
 // Parameters of the maps that have some: 1 - cos of a cone's half angle, radius and mass of a Gaussian.
 constexpr float ONE_MINUS_COS = 1e-4f;
 constexpr float GAUSSIAN_RADIUS = 2.0f;
@@ -120,10 +120,11 @@ void expect_in_shape(std::uint32_t number, const DeviceResults& out, Violations&
         if (number < 2) violations.expect(z[i] >= 0, "below the horizon");
         if (number == 3) violations.expect(z[i] >= 1 - ONE_MINUS_COS * (1 + 1e-3), "out of the cone");
         if (number == 4)
-            violations.expect(x[i] >= 0 && y[i] >= 0 && x[i] + y[i] <= 1 + 2 * ROUNDOFF, "out of the triangle");
-        if (number == 5) violations.expect(r2 <= 1 + 8 * ROUNDOFF, "out of the disk");
+            violations.expect(x[i] >= 0 && y[i] >= 0 && x[i] + y[i] <= 1 + 2 * FLOAT_ROUNDING, "out of the triangle");
+        if (number == 5) violations.expect(r2 <= 1 + 8 * FLOAT_ROUNDING, "out of the disk");
         if (number == 6) violations.expect(std::abs(x[i]) <= 1 && std::abs(y[i]) <= 1, "out of the tent");
-        if (number == 7) violations.expect(std::sqrt(r2) <= GAUSSIAN_RADIUS * (1 + 8 * ROUNDOFF), "out of the radius");
+        if (number == 7)
+            violations.expect(std::sqrt(r2) <= GAUSSIAN_RADIUS * (1 + 8 * FLOAT_ROUNDING), "out of the radius");
     }
 }
 
@@ -320,7 +321,7 @@ Results check_mis(const CheckContext& context)
     Violations violations;
     for (std::size_t i = 0; i < a.size(); ++i) {
         violations.expect(there[i] >= 0 && there[i] <= 1, "out of [0, 1]");
-        violations.expect(std::abs(double{there[i]} + back[i] - 1) <= 4 * ROUNDOFF, "sum of both");
+        violations.expect(std::abs(double{there[i]} + back[i] - 1) <= 4 * FLOAT_ROUNDING, "sum of both");
     }
     return {violations.result("mis-weights", Rule::bound)};
 }
@@ -356,10 +357,10 @@ Results check_frames(const CheckContext& context)
         const auto dot = [&](int a, int b) { return f[a][0] * f[b][0] + f[a][1] * f[b][1] + f[a][2] * f[b][2]; };
         error.add(std::max({std::abs(std::sqrt(dot(0, 0)) - 1), std::abs(std::sqrt(dot(1, 1)) - 1), std::abs(dot(0, 1)),
                             std::abs(dot(0, 2)), std::abs(dot(1, 2))}) /
-                  ROUNDOFF);
+                  FLOAT_ROUNDING);
         for (int k = 0; k < 3; ++k) {
             const int next = (k + 1) % 3, last = (k + 2) % 3;
-            handedness.add(std::abs(f[0][next] * f[1][last] - f[0][last] * f[1][next] - f[2][k]) / ROUNDOFF);
+            handedness.add(std::abs(f[0][next] * f[1][last] - f[0][last] * f[1][next] - f[2][k]) / FLOAT_ROUNDING);
             normals.expect(out[6 + static_cast<std::size_t>(k)][i] == std::bit_cast<std::uint32_t>(n[k][i]), "normal");
         }
     }

@@ -16,6 +16,7 @@ namespace
 {
 using Subject = ExpectedFact::Subject;
 
+// Times the samples of a scene: a quarter of its error.
 constexpr double MOST_FINE_EFFORT = 16.0;
 
 struct SceneFacts {
@@ -172,36 +173,42 @@ Check check_of(SceneFacts& scene, const std::string& name)
     scene.names = result_names(name, scene.facts);
     return check;
 }
+
+Check plain_check(SceneFacts scene)
+{
+    Check check = check_of(scene, scene.source.name);
+    check.is_long = scene.expectation().is_long;
+    check.run = [scene = std::move(scene)](const CheckContext& context) { return run_scene(scene, context); };
+    return check;
+}
+
+// Of the facts that are content with less power than others, if there are any.
+std::optional<Check> fine_check(SceneFacts scene)
+{
+    std::erase_if(scene.facts, [](const Fact& fact) { return fact.delta.value_or(0.0) <= DEFAULT_DELTA; });
+    if (scene.facts.empty()) return {};
+    Check check = check_of(scene, scene.source.name + "-finely");
+    check.is_long = true;
+    check.run = [scene = std::move(scene)](const CheckContext& context) { return run_scene_finely(scene, context); };
+    return check;
+}
 } // namespace
 
 std::optional<Check> scene_check(const SceneSource& source)
 {
     std::optional<SceneFacts> scene = load_facts(source);
     if (!scene) return {};
-    Check check = check_of(*scene, source.name);
-    check.is_long = scene->expectation().is_long;
-    check.run = [scene = std::move(*scene)](const CheckContext& context) { return run_scene(scene, context); };
-    return check;
-}
-
-std::optional<Check> fine_scene_check(const SceneSource& source)
-{
-    std::optional<SceneFacts> scene = load_facts(source);
-    if (!scene) return {};
-    std::erase_if(scene->facts, [](const Fact& fact) { return fact.delta.value_or(0.0) <= DEFAULT_DELTA; });
-    if (scene->facts.empty()) return {};
-    Check check = check_of(*scene, source.name + "-finely");
-    check.is_long = true;
-    check.run = [scene = std::move(*scene)](const CheckContext& context) { return run_scene_finely(scene, context); };
-    return check;
+    return plain_check(std::move(*scene));
 }
 
 std::vector<Check> scene_checks(const std::vector<SceneSource>& sources)
 {
     std::vector<Check> checks;
     for (const SceneSource& source : sources) {
-        if (std::optional<Check> check = scene_check(source)) checks.push_back(std::move(*check));
-        if (std::optional<Check> check = fine_scene_check(source)) checks.push_back(std::move(*check));
+        const std::optional<SceneFacts> scene = load_facts(source);
+        if (!scene) continue;
+        checks.push_back(plain_check(*scene));
+        if (std::optional<Check> check = fine_check(*scene)) checks.push_back(std::move(*check));
     }
     return checks;
 }

@@ -14,11 +14,8 @@ namespace etendue
 // Throws SceneError; nothing where the scene expects nothing.
 std::optional<Check> scene_check(const SceneSource& source);
 
-// What a scene's statistical facts that are content with less power than DEFAULT_DELTA say of up to 16 times the
-// samples: a check with --long, "NAME-finely". Its facts must see a bias of the context's delta, or of a quarter of
-// their own where that is more. Throws SceneError; nothing where there is no such fact.
-std::optional<Check> fine_scene_check(const SceneSource& source);
-
-// Both of all scenes that expect something.
+// Of all scenes that expect something; after a scene whose statistical facts are content with less power than
+// DEFAULT_DELTA what they say of up to 16 times the samples: a check with --long, "NAME-finely". They must see a bias
+// of the context's delta there, or of a quarter of their own where that is more.
 std::vector<Check> scene_checks(const std::vector<SceneSource>& sources);
 } // namespace etendue

@@ -3,17 +3,12 @@
 #pragma once
 
 #include "check/check.h"
+#include "math/rounding.h"
 
 #include <cstdint>
 
 namespace etendue
 {
-// Half the distance from 1 to the next float.
-inline constexpr double FLOAT_ROUNDING = 0x1p-24;
-
-// What float arithmetic along a path may add to a mean without variance, in roundings.
-inline constexpr double MEAN_ROUNDINGS = 16.0;
-
 // A mean of which one contribution is more than this share has an error that nobody knows.
 inline constexpr double HEAVY_SHARE = 0.05;
 

@@ -3,6 +3,7 @@
 
 #include "check/findings.h"
 #include "check/scene_source.h"
+#include "math/rounding.h"
 #include "scene/scene_loader.h"
 #include "util/statistics.h"
 
@@ -60,7 +61,7 @@ constexpr std::uint32_t UNLIMITED_DEPTH = 64;
 // one side.
 double rounding_bias(const Scene& scene)
 {
-    return 0x1p-24 * (240.0 + 2.0 * scene.integrator.max_depth.value_or(UNLIMITED_DEPTH));
+    return FLOAT_ROUNDING * (240.0 + 2.0 * scene.integrator.max_depth.value_or(UNLIMITED_DEPTH));
 }
 
 // P(Z <= z) of the power that detectable biases are told for.

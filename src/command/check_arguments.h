@@ -16,7 +16,7 @@ struct CheckArguments {
     std::vector<std::string> what; // groups, scene files and folders
     std::vector<std::string> only; // globs on names
     std::string device = "auto", seed = "fixed", specialize = "off", json;
-    double alpha = 1e-3, delta = 0.005;
+    double alpha = 1e-3, delta = DEFAULT_DELTA;
     std::optional<double> budget; // seconds
     std::uint32_t lanes = 0;      // 0: as suits the device
     bool is_long = false, list = false, quiet = false, no_cache = false;

@@ -44,6 +44,7 @@ cl::Device restrict_threads(const cl::Device& device, const DeviceInfo& info, st
     cl::Device(device).createSubDevices(properties, &parts);
     return parts.at(0);
 }
+
 // One context for each whole device of the process, so that programs can be used again. It is never released: drivers
 // are unloaded in an order of their own.
 cl::Context shared_context(const cl::Device& device)

@@ -1,17 +1,13 @@
 // Pixels of films and of several pictures.
 #include "converge/picture.h"
 
+#include "math/rounding.h"
+
 #include <cmath>
 #include <limits>
 
 namespace etendue
 {
-namespace
-{
-// What the sums of a film may be off by, relatively: some roundings of a float.
-constexpr double ROUNDINGS = 16.0 * 0x1p-24;
-} // namespace
-
 FilmPixels pixels_of(const Film& film)
 {
     FilmPixels pixels;
@@ -88,7 +84,8 @@ double PixelPool::skewness_of_mean(const Pixels& variance_of_mean) const
         for (int c = 0; c < 3; ++c) {
             const double error = std::sqrt(variance_of_mean[i][c]);
             const double mean = pixels_[i][static_cast<std::size_t>(c)].mean;
-            if (error > ROUNDINGS * std::abs(mean)) skewness.add(scale * cubes_[i][c] / (error * error * error));
+            if (error > MEAN_ROUNDINGS * FLOAT_ROUNDING * std::abs(mean))
+                skewness.add(scale * cubes_[i][c] / (error * error * error));
         }
     return skewness.mean();
 }

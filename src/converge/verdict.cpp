@@ -1,6 +1,7 @@
 // The three parts, and what they come to.
 #include "converge/verdict.h"
 
+#include "math/rounding.h"
 #include "util/statistics.h"
 
 #include <algorithm>
@@ -12,10 +13,6 @@ namespace etendue
 {
 namespace
 {
-// Half a unit in the last place of a float near 1.
-constexpr double ROUNDING = 0x1p-24;
-// Sums of a block in float, and the reference's in another order: a few roundings.
-constexpr double ROUNDINGS = 16.0;
 // A test that sees a bias with this certainty counts as able to see it.
 constexpr double POWER = 0.99;
 // Fewer p-values are not compared with uniform ones.
@@ -31,7 +28,7 @@ double mean_of_channels(const Vec3& v)
 // The variance of rounding, so that differences of one unit in the last place are no discovery.
 double rounding_variance(double value)
 {
-    const double deviation = ROUNDINGS * ROUNDING * value;
+    const double deviation = MEAN_ROUNDINGS * FLOAT_ROUNDING * value;
     return deviation * deviation;
 }
 

@@ -1,6 +1,7 @@
 // Sums over tiles, and Student's distribution with Welch and Satterthwaite's degrees of freedom.
 #include "image/welch.h"
 
+#include "math/rounding.h"
 #include "util/statistics.h"
 
 #include <algorithm>
@@ -14,9 +15,6 @@ namespace
 {
 constexpr double UNKNOWN = std::numeric_limits<double>::quiet_NaN();
 constexpr double POWER_QUANTILE = 2.3263478740408408; // normal, 99 %
-
-// Differences between float pictures that their last bits explain: so many roundings.
-constexpr double ROUNDINGS = 16.0 * 0x1p-24;
 
 // Mean difference of one channel in one tile, what is known of its error, and how large the values are.
 struct TileDifference {
@@ -45,7 +43,7 @@ void add_test(WelchTiles& tiles, const TileDifference& difference)
 {
     double p = UNKNOWN, z = UNKNOWN;
     // What rounding explains is no difference.
-    const double excess = std::max(0.0, std::abs(difference.mean) - ROUNDINGS * difference.size);
+    const double excess = std::max(0.0, std::abs(difference.mean) - MEAN_ROUNDINGS * FLOAT_ROUNDING * difference.size);
     if (std::isfinite(difference.mean) && difference.variance == 0.0) {
         // Without noise, equal or not is a fact.
         p = excess == 0.0 ? 1.0 : 0.0;

@@ -156,9 +156,9 @@ TEST_CASE("a fine check has the samples that its power needs, up to 16 times as 
         CheckContext context;
         context.device = &test_devices().front();
         context.delta = wanted;
-        const SceneSource source = scenes_at(folder.path() + "/scene.json").front();
-        const CheckResult plain = scene_check(source).value().run(context).front();
-        const CheckResult fine = fine_scene_check(source).value().run(context).front();
+        const std::vector<Check> checks = scene_checks(scenes_at(folder.path()));
+        REQUIRE(checks.size() == 2);
+        const CheckResult plain = checks[0].run(context).front(), fine = checks[1].run(context).front();
         CHECK(plain.verdict == Verdict::passed);
         CHECK(fine.verdict == Verdict::passed);
         return plain.detectable_bias / fine.detectable_bias;
